@@ -60,7 +60,7 @@ class Bench {
     // Half of the time is for the qualities of crowds.
     const bool has_crowds = reference_.run.tally.stepped_contact > 0 && reference_.method.engine == Engine::exact;
     share_ = has_crowds ? 0.5 : 1;
-    left_ = std::max(0.2 * options_.budget, share_ * options_.budget - spent());
+    left_ = max(0.2 * options_.budget, share_ * options_.budget - spent());
 
     // Each engine has its rows, or a reason why it has none.
     for (const Engine engine : {Engine::exact, Engine::stepped, Engine::book}) {
@@ -94,7 +94,7 @@ class Bench {
     if (world_.body_count() == 0) throw SimulationError("the scene has no bodies: there is nothing to measure");
     if (!(duration > 0)) throw SimulationError("the scene lasts 0 s: there is nothing to measure");
 
-    const double most = std::min(0.25 * duration, 64 * default_step(world_, scene_.initial));
+    const double most = min(0.25 * duration, 64 * default_step(world_, scene_.initial));
     const double longest = options_.longest.value_or(std::exp2(std::floor(std::log2(most))));
     const double shortest = options_.shortest.value_or(std::ldexp(longest, -halvings));
     for (double step = longest; step >= shortest * (1 - 1e-9); step *= 0.5) steps_.push_back(step);
@@ -139,7 +139,7 @@ class Bench {
       fill(row, run);
       if (method.engine == Engine::exact && !recorded && reference_.horizon > 0)
         evidence_->add({method, run, reference_.rounded});
-      row.repeats = static_cast<int>(std::clamp<int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
+      row.repeats = int(clamp<int64_t>(whole_below(0.2 * left_ / run.cpu_s), 1, options_.repeat));
 
     } catch (const Overrun&) {
       result_.left_out.push_back(
@@ -164,8 +164,8 @@ class Bench {
       }
 
       method.steps.length = step;
-      const double rows = static_cast<double>(result_.rows.size()) / static_cast<double>(4 * steps_.size() + 1);
-      watch_.report_progress(0.5 * std::max(rows, std::min(1.0, spent() / options_.budget)), full_name_of(method));
+      const double rows = double(result_.rows.size()) / double(4 * steps_.size() + 1);
+      watch_.report_progress(0.5 * max(rows, min(1.0, spent() / options_.budget)), full_name_of(method));
 
       BenchRow row;
       row.method = method;
@@ -175,9 +175,9 @@ class Bench {
 
         // The rest of the share bounds the repeats and the next row.
         row.cpu_s = bare = time_once(row);
-        records = std::max(0.0, run.cpu_s - bare);
+        records = max(0.0, run.cpu_s - bare);
         share -= run.cpu_s + bare;
-        row.repeats = static_cast<int>(std::clamp<int64_t>(whole_below(share / bare), 0, options_.repeat));
+        row.repeats = int(clamp<int64_t>(whole_below(share / bare), 0, options_.repeat));
         share -= row.repeats * bare;
         // The error of the book's engine comes from overlaps of bodies, however smooth their paths are.
         if (reference_.horizon > 0 && method.engine == Engine::stepped) evidence_->add_halved(method, std::move(run));
@@ -257,7 +257,7 @@ class Bench {
     const auto report_progress = [&](double done) { watch_.report_progress(0.5 + 0.5 * done, "timed runs"); };
     const vector<double> medians = time_in_turns(tasks, report_progress);
     for (size_t k = 0; k < rows.size(); ++k) rows[k]->cpu_s = medians[k];
-    for (BenchRow& row : result_.rows) row.repeats = std::max(row.repeats, 1);
+    for (BenchRow& row : result_.rows) row.repeats = max(row.repeats, 1);
   }
 
   const Scene& scene_;

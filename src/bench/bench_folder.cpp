@@ -128,9 +128,7 @@ PlotSeries quality_series(const QualityCurve& curve, string name, size_t style, 
 }
 
 size_t style_of(const SimulationMethod& method) {
-  return method.engine == Engine::exact  ? 0
-         : method.engine == Engine::book ? 5
-                                         : 1 + static_cast<size_t>(method.integrator);
+  return method.engine == Engine::exact ? 0 : method.engine == Engine::book ? 5 : 1 + size_t(method.integrator);
 }
 
 string plot_subtitle(const BenchResult& result) {

@@ -110,8 +110,8 @@ double body_energy(const World& world, const State& state, Entity body) {
 }  // namespace
 
 Differences larger(const Differences& a, const Differences& b) {
-  return {std::max(a.position, b.position), std::max(a.velocity, b.velocity), std::max(a.energy, b.energy),
-          std::max(a.missed, b.missed), std::max(a.invented, b.invented)};
+  return {max(a.position, b.position), max(a.velocity, b.velocity), max(a.energy, b.energy), max(a.missed, b.missed),
+          max(a.invented, b.invented)};
 }
 
 Differences differences(const World& world, const RecordedRun& reference, const RecordedRun& run,
@@ -125,13 +125,13 @@ Differences differences(const World& world, const RecordedRun& reference, const 
     const State &there = reference.states[k], &here = run.states[k];
     Sum energy;
     for (Entity body = 0; body < world.body_count(); ++body) {
-      most.position = std::max(most.position, (here.position[body] - there.position[body]).norm());
+      most.position = max(most.position, (here.position[body] - there.position[body]).norm());
       if (!matching.same_side(body, instants[k])) continue;
-      most.velocity = std::max(most.velocity, (here.velocity[body] - there.velocity[body]).norm());
+      most.velocity = max(most.velocity, (here.velocity[body] - there.velocity[body]).norm());
       energy.add(body_energy(world, here, body));
       energy.add(-body_energy(world, there, body));
     }
-    most.energy = std::max(most.energy, std::abs(energy.value()));
+    most.energy = max(most.energy, std::abs(energy.value()));
   }
   return most;
 }

@@ -26,7 +26,7 @@ constexpr double converging = 0.6;
 /// In units of a position's last digit: 2^-7 of the extent. A run with a larger error is no evidence.
 constexpr double largest_error = 0x1p46;
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = numeric_limits<double>::infinity();
 
 /// Whether steps are as short as forces require, or there are none.
 bool resolves_forces(const SimulationMethod& method) {
@@ -58,10 +58,10 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   if (last_) {
     finding.error = larger(between(last_->run, finding.run), rounding_);
     // A position is rounded in each step, often in the same direction.
-    change = std::max(finding.error.position, until_ / *method.steps.length * last_digit_);
+    change = max(finding.error.position, until_ / *method.steps.length * last_digit_);
     const bool falls = change_ < infinite && change <= converging * change_;
     // Two successive runs may have the same error by accident, but three hardly do.
-    finding.error.position = change_ < infinite ? std::max(change, 0.5 * change_) : change;
+    finding.error.position = change_ < infinite ? max(change, 0.5 * change_) : change;
     const bool converges = falls || change <= rounding_room * rounding_.position;
     if (converges && finding.error.position <= largest_error * last_digit_) keep(finding);
   }

@@ -41,7 +41,7 @@ struct RunMean {
 
 template <typename Of>
 RunMean mean_over(const QualityRuns& runs, const Of& of) {
-  const auto count = static_cast<double>(runs.size());
+  const auto count = double(runs.size());
   RunMean mean;
   for (const QualityRun& run : runs) mean.value += of(run) / count;
   for (const QualityRun& run : runs) mean.variance += std::pow(of(run) - mean.value, 2) / (count * (count - 1));
@@ -53,7 +53,7 @@ double height_of_heap(const World& world, const State& state) {
   const Vec3 up = -world.gravity.normalized();
   double mass = 0;
   double moment = 0;
-  double lowest = std::numeric_limits<double>::infinity();
+  double lowest = numeric_limits<double>::infinity();
 
   for (Entity i = 0; i < world.body_count(); ++i) {
     const double of_body = state.mass.empty() ? world.mass[i] : state.mass[i];
@@ -61,7 +61,7 @@ double height_of_heap(const World& world, const State& state) {
     const double height = up.dot(state.position[i]);
     mass += of_body;
     moment += of_body * height;
-    lowest = std::min(lowest, height - world.radius[i]);
+    lowest = min(lowest, height - world.radius[i]);
   }
 
   return moment / mass - lowest;
@@ -71,10 +71,10 @@ double height_of_heap(const World& world, const State& state) {
 /// of the greatest speed. Rounding would grow so slowly that runs have much of their impacts in common.
 State disturbed(const World& world, State state, int number) {
   double size = 0.01 * std::sqrt(2 * world.gravity.norm() * *std::ranges::min_element(world.radius));
-  for (const Vec3& v : state.velocity) size = std::max(size, 0.001 * v.norm());
-  std::mt19937_64 draw(static_cast<uint64_t>(number));
+  for (const Vec3& v : state.velocity) size = max(size, 0.001 * v.norm());
+  std::mt19937_64 draw{uint64_t(number)};
   for (Vec3& v : state.velocity)
-    for (int axis = 0; axis < 3; ++axis) v[axis] += size * (static_cast<double>(draw() >> 11) * 0x1p-52 - 1);
+    for (int axis = 0; axis < 3; ++axis) v[axis] += size * (double(draw() >> 11) * 0x1p-52 - 1);
   return state;
 }
 
@@ -82,15 +82,14 @@ class QualityBench {
  public:
   QualityBench(const Scene& scene, double budget, const BenchWatch& watch)
       : scene_(scene), budget_(budget), watch_(watch) {
-    for (size_t k = 1; k <= samples; ++k)
-      instants_.push_back(scene.simulate.duration * static_cast<double>(k) / samples);
+    for (size_t k = 1; k <= samples; ++k) instants_.push_back(scene.simulate.duration * double(k) / samples);
   }
 
   QualityCurve go() {
     QualityCurve curve;
     const double once = run_each_once(curve);
-    const auto affordable = static_cast<size_t>(whole_below(once > 0 ? budget_ / once : 0));
-    curve.runs = std::clamp(affordable, least_runs, most_runs);
+    const auto affordable = size_t(whole_below(once > 0 ? budget_ / once : 0));
+    curve.runs = clamp(affordable, least_runs, most_runs);
     repeat(curve);
 
     // Nothing is compared with the reference alone.
@@ -124,7 +123,7 @@ class QualityBench {
     for (size_t level = 0; level < runs_.size(); ++level) {
       try {
         for (size_t number = 2; number <= curve.runs; ++number)
-          runs_[level].push_back(run(level, static_cast<int>(number), watch_.stop_check));
+          runs_[level].push_back(run(level, int(number), watch_.stop_check));
       } catch (const SimulationError& error) {
         curve.cut = cut_at(level, error.what());
         runs_.resize(level);
@@ -134,7 +133,7 @@ class QualityBench {
 
   QualityRun run(size_t level, int number, const function<void()>& stop_check) {
     const auto quality = static_cast<QualityLevel>(level);
-    watch_.report_progress(std::min(1.0, spent_ / budget_), fmt::format("quality {}", name_of(quality)));
+    watch_.report_progress(min(1.0, spent_ / budget_), fmt::format("quality {}", name_of(quality)));
     Simulate settings = settings_of(scene_.simulate, {});
     settings.contact.quality = quality;
     const World& world = scene_.world;
@@ -165,18 +164,17 @@ class QualityBench {
     vector<double> times;
     for (const QualityRun& run : runs) {
       times.push_back(run.cpu_s);
-      row.max_overlap = std::max(row.max_overlap, run.tally.max_overlap);
+      row.max_overlap = max(row.max_overlap, run.tally.max_overlap);
     }
 
-    std::nth_element(times.begin(), times.begin() + static_cast<ptrdiff_t>(times.size() / 2), times.end());
+    std::nth_element(times.begin(), times.begin() + ptrdiff_t(times.size() / 2), times.end());
     row.cpu_s = times[times.size() / 2];
 
     row.made = mean_over(runs, [](const QualityRun& run) { return run.tally.doubts.contact_made; }).value;
-    row.unsolved =
-        mean_over(runs, [](const QualityRun& run) {
-          const Doubts& doubts = run.tally.doubts;
-          return static_cast<double>(doubts.unsolved_steps) / std::max(1.0, static_cast<double>(doubts.crowd_steps));
-        }).value;
+    row.unsolved = mean_over(runs, [](const QualityRun& run) {
+                     const Doubts& doubts = run.tally.doubts;
+                     return double(doubts.unsolved_steps) / max(1.0, double(doubts.crowd_steps));
+                   }).value;
 
     // The energy that is taken, over time.
     double squares = 0;

@@ -16,8 +16,8 @@ struct Scene;
 
 /// How far a mean over runs is from that of the reference, as a share, and its standard error.
 struct MeanError {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double spread = std::numeric_limits<double>::quiet_NaN();
+  double value = numeric_limits<double>::quiet_NaN();
+  double spread = numeric_limits<double>::quiet_NaN();
 };
 
 struct QualityRow {

@@ -133,8 +133,8 @@ class Making {
     for (size_t k = 0; k < reference_.instants.size(); ++k) {
       for (const RecordedRun& other : others)
         for (Entity i = 0; i < world_.body_count(); ++i)
-          reference_.rounding = std::max(reference_.rounding,
-                                         (other.states[k].position[i] - reference_.run.states[k].position[i]).norm());
+          reference_.rounding =
+              max(reference_.rounding, (other.states[k].position[i] - reference_.run.states[k].position[i]).norm());
       if (reference_.rounding <= grown * first) until = reference_.instants[k];
     }
     reference_.chaotic = reference_.rounding > astray * *std::ranges::max_element(world_.radius);

@@ -7,6 +7,7 @@
 
 #include "physics/places.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,7 +24,7 @@ State shifted(State state, const Vec3& by) {
 
 double extent(const World& world, const State& initial) {
   double most = 0;
-  for (Entity i = 0; i < world.body_count(); ++i) most = std::max(most, initial.position[i].norm() + world.radius[i]);
+  for (Entity i = 0; i < world.body_count(); ++i) most = max(most, initial.position[i].norm() + world.radius[i]);
   return most;
 }
 

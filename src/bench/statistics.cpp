@@ -22,25 +22,24 @@ Statistics statistics_of(const World& world, const RecordedRun& run, double dura
     if (!bodies) on_fixed += impact.impulse;
   }
 
-  statistics.collision_rate = static_cast<double>(struck) / (static_cast<double>(world.body_count()) * duration);
+  statistics.collision_rate = double(struck) / (double(world.body_count()) * duration);
   statistics.force_on_fixed = on_fixed / duration;
 
   for (size_t k = from; k < run.states.size(); ++k)
     for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());
   std::ranges::sort(statistics.speeds);
   statistics.mean_speed = std::accumulate(statistics.speeds.begin(), statistics.speeds.end(), 0.0) /
-                          std::max(1.0, static_cast<double>(statistics.speeds.size()));
+                          max(1.0, double(statistics.speeds.size()));
   return statistics;
 }
 
 double distance(span<const double> a, span<const double> b) {
   double most = 0;
   for (size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    const double x = std::min(a[i], b[j]);
+    const double x = min(a[i], b[j]);
     while (i < a.size() && a[i] <= x) ++i;
     while (j < b.size() && b[j] <= x) ++j;
-    most = std::max(most, std::abs(static_cast<double>(i) / static_cast<double>(a.size()) -
-                                   static_cast<double>(j) / static_cast<double>(b.size())));
+    most = max(most, std::abs(double(i) / double(a.size()) - double(j) / double(b.size())));
   }
   return most;
 }
@@ -49,7 +48,7 @@ namespace {
 
 /// (value - mean of the sample) / (standard deviation of one more draw). 0 for a sample without spread.
 double deviation_from(const vector<double>& sample, double value) {
-  const auto n = static_cast<double>(sample.size());
+  const auto n = double(sample.size());
   const double mean = std::accumulate(sample.begin(), sample.end(), 0.0) / n;
   double squares = 0;
   for (const double x : sample) squares += (x - mean) * (x - mean);
@@ -75,7 +74,7 @@ double force(const Statistics& s) {
 }
 
 double mean_of(const vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
 }
 
 }  // namespace

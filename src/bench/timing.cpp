@@ -26,7 +26,7 @@ double turn(const TimedTask& task, int runs) {
 double cpu_time() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
 
 function<void()> stop_check_within(double share, const function<void()>& stop_check) {
@@ -48,15 +48,15 @@ vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void
     while (task.repeats > 1 && many < most_in_a_turn) {
       const double once = turn(task, many);
       if (once * many >= resolved) break;
-      const double enough = std::min<double>(most_in_a_turn, resolved / std::max(once, 1e-8));
-      many = std::max(2 * many, static_cast<int>(enough));
+      const double enough = min<double>(most_in_a_turn, resolved / max(once, 1e-8));
+      many = max(2 * many, int(enough));
     }
     runs.push_back(many);
-    rounds = std::max(rounds, task.repeats);
+    rounds = max(rounds, task.repeats);
   }
 
   for (int round = 0; round < rounds; ++round) {
-    report_progress(static_cast<double>(round) / rounds);
+    report_progress(double(round) / rounds);
     for (size_t k = 0; k < tasks.size(); ++k)
       if (round < tasks[k].repeats) times[k].push_back(turn(tasks[k], runs[k]));
   }

@@ -54,9 +54,9 @@ class Batch {
   /// Settles every scene. Gives the program's exit code.
   int go() {
     const auto start = std::chrono::steady_clock::now();
-    const auto to_do = static_cast<size_t>(
+    const auto to_do = size_t(
         std::ranges::count_if(scenes_, [&](const PlannedScene& planned) { return !is_up_to_date(planned, options_); }));
-    const size_t jobs = std::min<size_t>(options_.execution.jobs.value_or(1), to_do);
+    const size_t jobs = min<size_t>(options_.execution.jobs.value_or(1), to_do);
 
     const int code = jobs <= 1 ? in_turn() : together(jobs, to_do);
     list_.end(since(start));
@@ -97,7 +97,7 @@ class Batch {
 
   /// "2/3 two_bowling_balls", or the name alone.
   string label(const PlannedScene& planned) const {
-    const auto number = static_cast<size_t>(&planned - scenes_.data()) + 1;
+    const auto number = size_t(&planned - scenes_.data()) + 1;
     const string name = printable(planned.name);
     return scenes_.size() == 1 ? name : fmt::format("{}/{} {}", number, scenes_.size(), name);
   }
@@ -171,8 +171,8 @@ class Batch::Together {
   }
 
   void show_progress() {
-    const auto to_do = static_cast<double>(to_do_);
-    progress_.update(std::max(fractions_.sum(), static_cast<double>(finished_)) / to_do,
+    const auto to_do = double(to_do_);
+    progress_.update(max(fractions_.sum(), double(finished_)) / to_do,
                      fmt::format("{} of {} scenes", finished_, to_do_));
   }
 

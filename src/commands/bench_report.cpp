@@ -91,7 +91,7 @@ Cells cells_of(const BenchRow& row, bool chaotic) {
     cells.insert(cells.end(), 3, "");
   }
 
-  cells.push_back(digits(std::max(row.max_overlap, 0.0)));
+  cells.push_back(digits(max(row.max_overlap, 0.0)));
   cells.push_back(row.errors ? grouped(row.errors->missed) : "");
   cells.push_back(row.errors ? grouped(row.errors->invented) : "");
   if (chaotic) cells.push_back(digits(row.deviation.value));

@@ -63,8 +63,7 @@ string fixed_text(const World& world) {
 }
 
 string strings_text(const World& world) {
-  const auto rods =
-      static_cast<size_t>(std::ranges::count_if(world.strings, [](const String& string) { return string.rod; }));
+  const auto rods = size_t(std::ranges::count_if(world.strings, [](const String& string) { return string.rod; }));
   const size_t strings = world.strings.size() - rods;
   if (rods == 0) return counted(strings, "string", "strings");
   return strings == 0 ? counted(rods, "rod", "rods")
@@ -221,11 +220,11 @@ uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
   if (!planned.scene->output.flights) return planned.price.forecast.bytes;
   const PiecesAhead& pieces = findings.foresight.pieces;
   const double flights = flight_bytes(pieces.of_events, pieces.of_crowd);
-  return planned.price.forecast.bytes + static_cast<uint64_t>(std::min(flights, static_cast<double>(largest_flights)));
+  return planned.price.forecast.bytes + uint64_t(min(flights, double(largest_flights)));
 }
 
 string steps_text(double steps) {
-  return steps < 1e15 ? counted(static_cast<uint64_t>(steps), "step", "steps") : fmt::format("{:.4g} steps", steps);
+  return steps < 1e15 ? counted(uint64_t(steps), "step", "steps") : fmt::format("{:.4g} steps", steps);
 }
 
 string to_come_text(const PlannedScene& planned, const Findings& findings) {
@@ -353,7 +352,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   const optional<double> seconds = seconds_to_come(planned, findings);
   entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);
   entry["folder"] = planned.folder;
-  entry["content"] = content_names[static_cast<size_t>(planned.found.content)];
+  entry["content"] = content_names[size_t(planned.found.content)];
   return entry;
 }
 

@@ -56,7 +56,7 @@ void add_option(CLI::App& app, Given& given) {
 
   if (option.value.empty()) {
     app.add_flag_function(
-           names, [&given](int64_t count) { given.words.assign(static_cast<size_t>(count), ""); }, help)
+           names, [&given](int64_t count) { given.words.assign(size_t(count), ""); }, help)
         ->disable_flag_override();
     return;
   }
@@ -120,7 +120,7 @@ void check_operands(const Command& command, const vector<string>& operands) {
 
 ParsedOptions parse_options(const Command& command, const vector<string>& words) {
   CLI::App app;
-  app.formatter(std::make_shared<HelpFormatter>(command));
+  app.formatter(make_shared<HelpFormatter>(command));
   app.set_help_flag("-h,--help", "show this help");
   app.allow_extras();
   if (!command.notes.empty()) app.footer(command.notes);

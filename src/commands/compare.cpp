@@ -174,8 +174,7 @@ class CompareSession {
 
   int done(const ComparisonPlan& plan, const RunSet& differences) {
     const vector<ListedRun>& runs = differences.runs();
-    const auto failed =
-        static_cast<size_t>(std::ranges::count_if(runs, [](const ListedRun& run) { return !run.done; }));
+    const auto failed = size_t(std::ranges::count_if(runs, [](const ListedRun& run) { return !run.done; }));
     vector<string> varied, measures;
     for (const Parameter& parameter : plan.parameters) varied.push_back(parameter.path);
     for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);

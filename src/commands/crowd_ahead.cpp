@@ -8,6 +8,7 @@
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -57,7 +58,7 @@ CrowdAhead crowd_ahead(const Scene& scene, Engine engine) {
   for (Entity i = 0; i < world.body_count(); ++i) {
     const Landing landing = landing_of(world, i, scene.initial.position[i]);
     if (landing.height == never) return {};
-    height = std::max(height, landing.height);
+    height = max(height, landing.height);
     kept += landing.restitution * landing.restitution / world.body_count();
   }
   if (!(kept < 1)) return {};
@@ -78,8 +79,8 @@ CrowdAhead crowd_ahead(const Scene& scene, Engine engine) {
 }
 
 double time_ahead(const CrowdAhead& crowd, double time, double duration, double rate) {
-  const double from = std::clamp(crowd.from, time, duration);
-  const double until = std::clamp(crowd.until, from, duration);
+  const double from = clamp(crowd.from, time, duration);
+  const double until = clamp(crowd.until, from, duration);
   if (time >= crowd.until) return rate * (duration - time);
   if (time >= crowd.from) return rate * (until - from);
   const double landing = crowd.from < duration ? crowd.landing : 0;
@@ -87,8 +88,8 @@ double time_ahead(const CrowdAhead& crowd, double time, double duration, double 
 }
 
 PiecesAhead pieces_ahead(const CrowdAhead& crowd, double time, double duration, double rate) {
-  const double from = std::clamp(crowd.from, time, duration);
-  const double until = std::clamp(crowd.until, from, duration);
+  const double from = clamp(crowd.from, time, duration);
+  const double until = clamp(crowd.until, from, duration);
   PiecesAhead ahead{rate * (from - time), crowd.piece_rate * (until - from)};
   if (crowd.from > time && crowd.from < duration) ahead.of_events += crowd.landing_pieces;
   return ahead;

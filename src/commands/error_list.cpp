@@ -52,10 +52,10 @@ string reason_of(const std::exception& error) {
 
 vector<ErrorRecord> error_of_text(string_view text, string_view file) {
   text = trimmed(text);
-  const size_t end = std::min(text.find('\n'), text.size());
+  const size_t end = min(text.find('\n'), text.size());
   ErrorRecord error{string(file), 0, 0, string(text.substr(0, end)), {}, suggestion_in(text)};
   for (text.remove_prefix(end); !(text = trimmed(text)).empty();) {
-    const size_t stop = std::min(text.find('\n'), text.size());
+    const size_t stop = min(text.find('\n'), text.size());
     if (!error.remedy.empty()) error.remedy += '\n';
     error.remedy += text.substr(0, stop);
     text.remove_prefix(stop);

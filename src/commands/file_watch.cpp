@@ -25,9 +25,8 @@ constexpr auto patience = std::chrono::milliseconds(500);
 FileWatch::Stamp FileWatch::stamp_of(const string& file) {
   struct stat info {};
   if (stat(file.c_str(), &info) != 0) return {};
-  const auto ns =
-      static_cast<uint64_t>(info.st_mtim.tv_sec) * 1'000'000'000 + static_cast<uint64_t>(info.st_mtim.tv_nsec);
-  return {static_cast<uint64_t>(info.st_ino), static_cast<uint64_t>(info.st_size), ns};
+  const auto ns = uint64_t(info.st_mtim.tv_sec) * 1'000'000'000 + uint64_t(info.st_mtim.tv_nsec);
+  return {uint64_t(info.st_ino), uint64_t(info.st_size), ns};
 }
 
 void FileWatch::follow(const std::set<string>& files) {

@@ -116,8 +116,8 @@ class Trial {
   /// beyond it.
   void advance() {
     const double duration = scene_.simulate.duration, time = oracle_->time();
-    double target = std::min(duration, result_.first ? time + duration / 100 : std::max(2 * time, duration * 0x1p-20));
-    if (next_ <= last_) target = std::min(target, ticks_.at(next_));
+    double target = min(duration, result_.first ? time + duration / 100 : max(2 * time, duration * 0x1p-20));
+    if (next_ <= last_) target = min(target, ticks_.at(next_));
 
     while (oracle_->time() < target) {
       stop_if_interrupted();
@@ -172,7 +172,7 @@ optional<double> own_engine_s(const Scene& scene, const EngineChoice& engine, do
 
     while (simulator->time() < duration && since(start) < budget) {
       stop_if_interrupted();
-      simulator->advance_to(std::min(duration, simulator->time() + duration / 1000));
+      simulator->advance_to(min(duration, simulator->time() + duration / 1000));
     }
 
     if (!(simulator->time() > 0)) return nullopt;

@@ -110,7 +110,7 @@ class GatherSession {
       }
 
       const auto has = std::ranges::find_if(whole, [&](const auto& runs) { return runs[number]; });
-      statuses.push_back(bring(sweep.id(number), static_cast<size_t>(has - whole.begin())));
+      statuses.push_back(bring(sweep.id(number), size_t(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
       progress.update(number, 2 * sweep.size(), "runs checked or compared");

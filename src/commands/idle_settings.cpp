@@ -55,7 +55,7 @@ vector<string> idle_settings(const vector<string>& set, const Scene& written,
   // Whether a text of the scene is the same without an option.
   const auto is_same_without = [&](size_t option, const function<string(const Scene&)>& text) {
     vector<string> others = set;
-    others.erase(others.begin() + static_cast<ptrdiff_t>(option));
+    others.erase(others.begin() + ptrdiff_t(option));
     try {
       return text(written_with(others)) == text(written);
     } catch (const std::exception&) {

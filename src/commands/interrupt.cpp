@@ -24,7 +24,7 @@ void catch_signals() {
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   struct sigaction action {};
   action.sa_handler = record_signal;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+  action.sa_flags = int(SA_RESETHAND | SA_RESTART);
   sigemptyset(&action.sa_mask);
 
   for (const int signal : {SIGINT, SIGTERM}) {

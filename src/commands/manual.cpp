@@ -47,7 +47,7 @@ string example(string_view text) {
 string paragraphs(string_view text) {
   string out;
   for (size_t i = 0; i < text.size();) {
-    const size_t end = std::min(text.find("\n\n", i), text.size());
+    const size_t end = min(text.find("\n\n", i), text.size());
     out += ".PP\n" + roff(text.substr(i, end - i)) + "\n";
     i = end + 2;
   }
@@ -74,10 +74,9 @@ string operands(const Command& command) {
 }
 
 string command_section(const Command& command) {
-  string out = fmt::format(".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name),
-                           roff(command.name), operands(command),
-                           static_cast<char>(std::toupper(static_cast<unsigned char>(command.line[0]))),
-                           roff(command.line.substr(1)));
+  string out = fmt::format(
+      ".SS carom {}\n.B carom {}\\fR{} [\\fIOPTIONS\\fR]\n.PP\n{}{}.\n", roff(command.name), roff(command.name),
+      operands(command), char(std::toupper(static_cast<unsigned char>(command.line[0]))), roff(command.line.substr(1)));
   out += example(command.examples);
   if (!command.notes.empty()) out += paragraphs(command.notes);
   for (const OptionUse& use : options_of(command))

@@ -154,9 +154,9 @@ string_view only_help() {
 /// "2/5"
 Shard read_shard(const string& word) {
   const string_view text = word;
-  const size_t slash = std::min(text.find('/'), text.size());
+  const size_t slash = min(text.find('/'), text.size());
   const auto index = parsed<size_t>(text.substr(0, slash));
-  const auto count = parsed<size_t>(text.substr(std::min(slash + 1, text.size())));
+  const auto count = parsed<size_t>(text.substr(min(slash + 1, text.size())));
   if (!index || !count || *index < 1 || *index > *count)
     throw UsageError(fmt::format("--shard takes I/N, such as 1/4 to 4/4, not {}", in_backticks(word)));
   return {*index, *count};
@@ -206,13 +206,13 @@ const Option table[] = {
     {"--plan", "", "", "show the runs, their values and which are done",
      [](Options& o, const Words&) { o.sweep.plan = true; }},
     {"--seed", "", "N", "the scene's seed",
-     [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, std::numeric_limits<uint64_t>::max()); }},
+     [](Options& o, const Words& w) { o.seed = whole(w, "--seed", 0, numeric_limits<uint64_t>::max()); }},
     {"--steps", "", "FROM:TO", "step sizes in s, from FROM down to TO by halving (set by\nthe scene: ten halvings)",
      read_steps},
     {"--repeat", "", "N", "at most N timed runs of each row (5)",
      [](Options& o, const Words& w) {
        o.sweep.repeat = whole(w, "--repeat", 1, 1'000'000);
-       o.bench.repeat = static_cast<int>(*o.sweep.repeat);
+       o.bench.repeat = int(*o.sweep.repeat);
      }},
     {"--budget", "", "SECONDS", "approximate CPU time for each scene; steps that cost\nmore are left out (20)",
      [](Options& o, const Words& w) { o.bench.budget = number(single(w, "--budget"), "--budget"); }},

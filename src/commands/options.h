@@ -100,7 +100,7 @@ struct Command {
   string operand_help = "scene files (YAML)";
   // Error for too few operands.
   string missing = "name a scene file: carom {} scenes/two_bowling_balls.yaml";
-  size_t least = 1, most = std::numeric_limits<size_t>::max();  // number of operands
+  size_t least = 1, most = numeric_limits<size_t>::max();  // number of operands
 };
 
 }  // namespace carom

@@ -42,7 +42,7 @@ struct PlannedScene {
   SceneOrigin origin{};  // of a scene that is run; its settings as UTF-8
   /// What the user may not expect of this command, for the terminal.
   vector<string> notes{};
-  std::shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
+  shared_ptr<const FormerRun> former{};  // a run to draw again; in its own folder: renewed there
 };
 
 enum class Purpose { run, bench };

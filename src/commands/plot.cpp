@@ -58,7 +58,7 @@ class PlotPlanner {
     // The run, of which the charts that are possible need not be there.
     optional<PossibleCharts> charts;
     auto former =
-        std::make_shared<FormerRun>(read_former_run(planned.file, file, [&](const FormerRun& run, string_view name) {
+        make_shared<FormerRun>(read_former_run(planned.file, file, [&](const FormerRun& run, string_view name) {
           if (!charts) charts = possible_charts(run);
           // In another folder pictures are not needed. In the run's own they stay, and must be right.
           return is_drawn_by(*charts, name) || (!in_place && is_picture(name));

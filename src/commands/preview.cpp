@@ -16,7 +16,7 @@ namespace {
 // The picture's axis closest to +x; away or toward only if +x has no length in the picture.
 string direction_of_plus_x(const CameraFrame& view) {
   const double right = view.right.x(), up = view.up.x();
-  if (std::max(std::abs(right), std::abs(up)) < 1e-9) return view.forward.x() > 0 ? "away" : "toward";
+  if (max(std::abs(right), std::abs(up)) < 1e-9) return view.forward.x() > 0 ? "away" : "toward";
   if (std::abs(right) >= std::abs(up)) return right > 0 ? "right" : "left";
   return up > 0 ? "up" : "down";
 }

@@ -57,9 +57,9 @@ void Progress::draw_bar(double done, const string& counts, const string& left) {
 
   string text = fmt::format("{} ", name_);
   if (letters_of(text) + bar_width + 24 < width) {
-    const auto full = static_cast<size_t>(whole_below(std::clamp(done, 0.0, 1.0) * bar_width));
+    const auto full = size_t(whole_below(clamp(done, 0.0, 1.0) * bar_width));
     const Palette palette(color_);
-    string rest = fmt::format(" {:3.0f} % ", std::min(99.0, done * 100));
+    string rest = fmt::format(" {:3.0f} % ", min(99.0, done * 100));
     const size_t taken = letters_of(text) + bar_width + 2 + rest.size();
     rest += taken + letters_of(counts) <= width ? counts : left;
     text += fmt::format("[{}{}{}{:{}}]{}", palette.green, string(full, '='), palette.reset, "", bar_width - full, rest);
@@ -77,7 +77,7 @@ void Progress::begin_early() {
 }
 
 void Progress::store(double done) {
-  if (shared_ != nullptr) shared_->store(std::clamp(done, 0.0, 1.0), std::memory_order_relaxed);
+  if (shared_ != nullptr) shared_->store(clamp(done, 0.0, 1.0), std::memory_order_relaxed);
 }
 
 bool Progress::due() const {
@@ -89,8 +89,7 @@ bool Progress::due() const {
 string Progress::rate(double count) const {
   const double per_second = elapsed() > 0 ? count / elapsed() : 0;
   if (per_second < 1) return fmt::format("{:.2g}/min", 60 * per_second);
-  return per_second < 10 ? fmt::format("{:.2g}/s", per_second)
-                         : grouped(static_cast<uint64_t>(whole_below(per_second))) + "/s";
+  return per_second < 10 ? fmt::format("{:.2g}/s", per_second) : grouped(uint64_t(whole_below(per_second))) + "/s";
 }
 
 double Progress::elapsed() const {
@@ -113,7 +112,7 @@ void Progress::show(double done, double left_s, const string& what) {
   if (choice_ == ProgressChoice::bar) {
     draw_bar(done, counts, left);
   } else {
-    const int tenth = static_cast<int>(whole_below(std::clamp(done, 0.0, 1.0) * 10));
+    const int tenth = int(whole_below(clamp(done, 0.0, 1.0) * 10));
     // At the end the result is printed instead.
     if (tenth == 10 || (tenth == tenth_ && since_last < 5)) return;
     tenth_ = tenth;
@@ -131,15 +130,15 @@ void Progress::update(const RunProgress& progress) {
 
 void Progress::update(size_t done, size_t of, string_view things, const string& more) {
   if (!due()) return;
-  const auto count = static_cast<double>(done);
-  const double share = count / static_cast<double>(std::max<size_t>(of, 1));
+  const auto count = double(done);
+  const double share = count / double(max<size_t>(of, 1));
   show(share, left(share), fmt::format("{} of {} {} ({}){}", grouped(done), grouped(of), things, rate(count), more));
 }
 
 void Progress::update(double done, const string& what) {
   store(done);
   if (!due()) return;
-  const double share = std::clamp(done, 0.0, 1.0);
+  const double share = clamp(done, 0.0, 1.0);
   show(share, left(share), what);
 }
 

@@ -83,7 +83,7 @@ class Planner {
     LoadOptions load = load_options(options_, true);
     load.set.clear();
     SceneFile file(path, load);
-    auto former = std::make_shared<FormerRun>(
+    auto former = make_shared<FormerRun>(
         read_former_run(planned.file, file, [](const FormerRun&, string_view name) { return is_picture(name); }));
 
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;

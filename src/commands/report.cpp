@@ -151,7 +151,7 @@ void Block::warning(string_view label, string_view text) {
 void Block::table(const vector<vector<string>>& rows) {
   vector<size_t> widths(rows.front().size(), 0);
   for (const auto& row : rows)
-    for (size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], letters_of(row[k]));
+    for (size_t k = 0; k < row.size(); ++k) widths[k] = max(widths[k], letters_of(row[k]));
 
   for (const auto& row : rows) {
     string line;
@@ -227,11 +227,10 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   for (const LeftOut& file : result.facts.left_out)
     block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), written_files(planned)));
-  block.line(
-      "time",
-      fmt::format("{}: load {}, simulate {}, draw {}, write {}", wait_text(result.facts.load_s + result.wall_s),
-                  wait_text(result.facts.load_s), wait_text(result.facts.simulate_s), wait_text(result.facts.render_s),
-                  wait_text(std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s))));
+  block.line("time", fmt::format("{}: load {}, simulate {}, draw {}, write {}",
+                                 wait_text(result.facts.load_s + result.wall_s), wait_text(result.facts.load_s),
+                                 wait_text(result.facts.simulate_s), wait_text(result.facts.render_s),
+                                 wait_text(max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s))));
 }
 
 Json summary_json(const Summary& summary) {
@@ -281,7 +280,7 @@ Json facts_json(const RunResult& result) {
           {"load_s", result.facts.load_s},
           {"simulate_s", result.facts.simulate_s},
           {"draw_s", result.facts.render_s},
-          {"write_s", std::max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s)},
+          {"write_s", max(0.0, result.wall_s - result.facts.simulate_s - result.facts.render_s)},
           {"peak_memory_bytes", result.facts.peak_memory}};
 }
 

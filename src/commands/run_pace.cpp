@@ -30,7 +30,7 @@ double Pace::rate() const {
   if (!(last.done > from.done)) from = {};
   const double time = last.elapsed - from.elapsed;
   const double work = last.done - from.done;
-  return work > 0 && time > 0 ? time / work : std::numeric_limits<double>::infinity();
+  return work > 0 && time > 0 ? time / work : numeric_limits<double>::infinity();
 }
 
 void RunPace::note(double elapsed, const RunProgress& progress) {
@@ -42,17 +42,17 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
   const double in_phase = elapsed - phase_from_;
   switch (progress.phase) {
     case Phase::settling:
-      left_ = std::numeric_limits<double>::infinity();
+      left_ = numeric_limits<double>::infinity();
       break;
 
     case Phase::simulating:
       simulating_.note(in_phase, progress.time - progress.begun_at);
-      if (!ahead_.draws_after) drawing_.note(in_phase, static_cast<double>(progress.pictures));
-      left_ = ahead_.draws_after ? simulation_left() + ahead_.draw_s : std::max(simulation_left(), drawing_left());
+      if (!ahead_.draws_after) drawing_.note(in_phase, double(progress.pictures));
+      left_ = ahead_.draws_after ? simulation_left() + ahead_.draw_s : max(simulation_left(), drawing_left());
       break;
 
     case Phase::drawing:
-      drawing_.note(ahead_.draws_after ? in_phase : elapsed, static_cast<double>(progress.pictures));
+      drawing_.note(ahead_.draws_after ? in_phase : elapsed, double(progress.pictures));
       left_ = drawing_left();
       break;
     case Phase::writing:
@@ -60,25 +60,25 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
       break;
   }
 
-  if (std::isfinite(left_) && elapsed > 0) share_ = std::max(share_, elapsed / (elapsed + left_));
+  if (std::isfinite(left_) && elapsed > 0) share_ = max(share_, elapsed / (elapsed + left_));
 }
 
 double RunPace::simulation_left() {
   const double rate = simulating_.rate();
   if (!std::isfinite(rate)) return ahead_.duration > 0 ? rate : 0;
-  return time_ahead(ahead_.crowd, now_.time, std::max(ahead_.duration, now_.time), rate);
+  return time_ahead(ahead_.crowd, now_.time, max(ahead_.duration, now_.time), rate);
 }
 
 /// By its pace, or by the guess while there is none.
 double RunPace::drawing_left() {
   const double rate = drawing_.rate();
-  const auto to_come = static_cast<double>(ahead_.pictures - std::min(now_.pictures, ahead_.pictures));
+  const auto to_come = double(ahead_.pictures - min(now_.pictures, ahead_.pictures));
   return std::isfinite(rate) ? to_come * rate : ahead_.draw_s;
 }
 
 double RunPace::left() const {
   const bool early = elapsed_ - phase_from_ < first_seconds;
-  return early || !std::isfinite(left_) ? std::numeric_limits<double>::quiet_NaN() : left_;
+  return early || !std::isfinite(left_) ? numeric_limits<double>::quiet_NaN() : left_;
 }
 
 string RunPace::text() const {

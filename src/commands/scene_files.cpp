@@ -36,7 +36,7 @@ string text_of(const string& file) {
 bool is_named(string_view file, std::initializer_list<string_view> endings) {
   string ending = fs::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
   return std::ranges::find(endings, ending) != endings.end();
 }
 
@@ -45,12 +45,12 @@ string decoded(string_view uri) {
   string out;
   for (size_t i = 0; i < uri.size(); ++i) {
     int code = 0;
-    for (size_t k = i + 1; uri[i] == '%' && k < std::min(i + 3, uri.size()); ++k) {
+    for (size_t k = i + 1; uri[i] == '%' && k < min(i + 3, uri.size()); ++k) {
       const char c = uri[k];
       const int digit = c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c - 'A' + 10;
       code = 16 * code + digit;
     }
-    out += code > 0 ? static_cast<char>(code) : uri[i];
+    out += code > 0 ? char(code) : uri[i];
     i += code > 0 ? 2 : 0;
   }
   return out;
@@ -68,14 +68,14 @@ void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, std::s
 /// The names behind the first word of lines that begin with `word`: all behind it, and the last of its parts.
 void add_names(string_view text, string_view word, const fs::path& folder, std::set<string>& files) {
   for (size_t i = 0; i < text.size();) {
-    const size_t end = std::min(text.find_first_of("\r\n", i), text.size());
+    const size_t end = min(text.find_first_of("\r\n", i), text.size());
     string_view line = text.substr(i, end - i);
     i = end + 1;
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    line.remove_prefix(min(line.find_first_not_of(" \t"), line.size()));
     if (!line.starts_with(word)) continue;
 
     // What follows the word, without blanks around it.
-    line.remove_prefix(std::min(line.find_first_of(" \t"), line.size()));
+    line.remove_prefix(min(line.find_first_of(" \t"), line.size()));
     while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
     while (!line.empty() && (line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
 

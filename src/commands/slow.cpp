@@ -26,7 +26,7 @@ string slow_text(const Scene& scene) {
   double heaviest = 0;  // kg
   for (const String& string : world.strings)
     for (const Entity i : {string.body, string.other})
-      if (i != no_entity) heaviest = std::max(heaviest, world.mass[i]);
+      if (i != no_entity) heaviest = max(heaviest, world.mass[i]);
 
   // The smallest and the lightest body, where they are below the limits.
   Entity small = no_entity, light = no_entity;

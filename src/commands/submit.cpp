@@ -98,7 +98,7 @@ int submit(const Options& options) {
 
   const size_t runs = job.sweep().size() - job.invalid().size();
   const size_t parts =
-      std::min(options.submit.parts.value_or(std::min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
+      min(options.submit.parts.value_or(min((runs + runs_a_part - 1) / runs_a_part, most_parts)), runs);
   const string folder = sweep_folder_of(options);
   const string stem = fs::path(options.operands.front()).stem().string();
 

@@ -27,7 +27,7 @@ constexpr size_t failures_shown = 10;
 void describe_skipped(Block& block, const vector<std::pair<string, string>>& skipped) {
   if (skipped.empty()) return;
   block.warning("left out", counted(skipped.size(), "invalid run", "invalid runs"));
-  for (size_t i = 0; i < std::min(skipped.size(), failures_shown); ++i)
+  for (size_t i = 0; i < min(skipped.size(), failures_shown); ++i)
     block.line("", fmt::format("{}: {}", skipped[i].first, printable(skipped[i].second)));
   if (skipped.size() > failures_shown) block.line("", fmt::format("and {} more", skipped.size() - failures_shown));
 }
@@ -56,7 +56,7 @@ Json begin_json(const Options& options, string_view status) {
 
 int show_outcome(const Options& options, const SweepOutcome& outcome, const SweepJob& job) {
   flush_out();
-  for (size_t i = 0; i < std::min(outcome.failures.size(), failures_shown) && !options.json; ++i) {
+  for (size_t i = 0; i < min(outcome.failures.size(), failures_shown) && !options.json; ++i) {
     const auto& [number, why] = outcome.failures[i];
     complain(options, fmt::format("{}: the run failed: {}", job.sweep().id(number), why));
   }

@@ -98,7 +98,7 @@ Sweep read_sweep(const Options& options) {
 
   for (const string& set : options.set) set_for_all(sweep, set, "--set");
   if (options.seed && sweep.seeds > 0) {
-    if (*options.seed > std::numeric_limits<uint64_t>::max() - sweep.seeds)
+    if (*options.seed > numeric_limits<uint64_t>::max() - sweep.seeds)
       throw UsageError(fmt::format("--seed {} leaves too few seeds for {} repeats", *options.seed, sweep.seeds));
     sweep.first_seed = options.seed;
   } else if (options.seed) {
@@ -130,7 +130,7 @@ SweepSettings sweep_settings(const Options& options) {
   settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
 
   // Every scenario has the base's meshes, so each mesh is read once.
-  auto known = std::make_shared<std::map<string, vector<Vec3>>>();
+  auto known = make_shared<std::map<string, vector<Vec3>>>();
   settings.load.measure_fault = measure_fault;
   settings.load.mesh_points = [known](const string& path) {
     const auto found = known->find(path);
@@ -221,7 +221,7 @@ Shard shard_of(const Options& options) {
   if (options.shard) return *options.shard;
   const auto task = slurm("SLURM_ARRAY_TASK_ID"), count = slurm("SLURM_ARRAY_TASK_COUNT");
   if (!task || !count) return {};
-  const size_t step = std::max<size_t>(slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
+  const size_t step = max<size_t>(slurm("SLURM_ARRAY_TASK_STEP").value_or(1), 1);
   const size_t least = slurm("SLURM_ARRAY_TASK_MIN").value_or(1);
   const Shard shard{*task < least ? 0 : (*task - least) / step + 1, *count};
   if (shard.index < 1 || shard.index > shard.count || (*task - least) % step != 0)

@@ -82,7 +82,7 @@ string harmless(string_view text) {
       result += text.substr(i, length);
     } else {
       char32_t code = 0;
-      length = static_cast<size_t>(std::max(utf8_length(text, i, code), 1));
+      length = size_t(max(utf8_length(text, i, code), 1));
       result += printable(text.substr(i, length));
     }
     i += length;

@@ -29,7 +29,7 @@ string counted(uint64_t count, string_view singular, string_view plural) {
 string bytes_text(uint64_t bytes) {
   if (bytes < 1000) return counted(bytes, "byte", "bytes");
   constexpr array units = {"kB", "MB", "GB", "TB", "PB", "EB"};
-  double value = static_cast<double>(bytes) / 1000;
+  double value = double(bytes) / 1000;
   size_t unit = 0;
   while (value >= 999.5 && unit + 1 < units.size()) value /= 1000, ++unit;
   return fmt::format(fmt::runtime(value < 9.95 ? "{:.1f} {}" : "{:.0f} {}"), value, units[unit]);
@@ -40,7 +40,7 @@ string wait_text(double seconds) {
   if (seconds < 0.00995) return fmt::format("{:.1f} ms", seconds * 1000);
   if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
   if (seconds < 9.995) return fmt::format("{:.2f} s", seconds);
-  const auto whole = static_cast<uint64_t>(std::min(std::round(seconds), 1e15));
+  const auto whole = uint64_t(min(std::round(seconds), 1e15));
   if (whole < 60) return fmt::format("{} s", whole);
   if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
@@ -63,7 +63,7 @@ string wrapped(string_view text, size_t indent, size_t width) {
   size_t column = indent;
 
   while (!text.empty()) {
-    const size_t end = std::min(text.find(' '), text.size());
+    const size_t end = min(text.find(' '), text.size());
     const string_view word = text.substr(0, end);
     const size_t length = letters_of(word);
     if (column > indent && column + 1 + length > width) {
@@ -76,7 +76,7 @@ string wrapped(string_view text, size_t indent, size_t width) {
 
     result += word;
     column += length;
-    text.remove_prefix(std::min(end + 1, text.size()));
+    text.remove_prefix(min(end + 1, text.size()));
   }
   return result;
 }

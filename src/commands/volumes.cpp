@@ -75,7 +75,7 @@ string volumes_text(const Scene& scene) {
     const bool ball = world.volume_of(range.first).shape == Shape::sphere;
     if (!ball || range.mesh) add(range.first, range.name, range.mesh);
   }
-  for (auto i = static_cast<Entity>(world.planes.size() + world.walls.size()); i < world.fixed_count(); ++i) {
+  for (auto i = Entity(world.planes.size() + world.walls.size()); i < world.fixed_count(); ++i) {
     add(world.body_count() + i, scene.roster.fixed[i].name, scene.roster.fixed[i].mesh);
   }
 
@@ -96,7 +96,7 @@ Json volumes_json(const Scene& scene) {
   for (const BodyRange& range : scene.roster.bodies) {
     if (range.count > 0) volumes[range.name] = volume_json(world.volume_of(range.first));
   }
-  const auto first = static_cast<Entity>(world.planes.size() + world.walls.size());
+  const auto first = Entity(world.planes.size() + world.walls.size());
   for (Entity i = first; i < world.fixed_count(); ++i) {
     volumes[scene.roster.fixed[i].name] = volume_json(world.volume_of(world.body_count() + i));
   }

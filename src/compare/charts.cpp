@@ -93,7 +93,7 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
   data.numeric = axis.numeric;
 
   const size_t all = lines == nullptr ? 1 : lines->values.size();
-  data.lines.resize(std::min(all, most_lines));
+  data.lines.resize(min(all, most_lines));
   if (all > most_lines) data.note = fmt::format("{} of {} values of {}", most_lines, all, chart.by);
   for (size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
     data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
@@ -104,7 +104,7 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
   vector<size_t> points_of_line(data.lines.size());
   size_t shown = 0;
   for (size_t i = 0; i < outcomes.points(); ++i) shown += line_of(i) < data.lines.size() ? 1 : 0;
-  const size_t every = 1 + (std::max<size_t>(shown, 1) - 1) / most_charted;
+  const size_t every = 1 + (max<size_t>(shown, 1) - 1) / most_charted;
   if (every * outcomes.every() > 1)
     data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
 

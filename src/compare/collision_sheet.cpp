@@ -11,7 +11,7 @@
 namespace carom {
 
 CollisionSheet::CollisionSheet(Worksheet& sheet, size_t runs)
-    : sheet_(sheet), share_(std::max<size_t>(1, most / std::max<size_t>(runs, 1))) {}
+    : sheet_(sheet), share_(max<size_t>(1, most / max<size_t>(runs, 1))) {}
 
 void CollisionSheet::add(const RunRecord& run) {
   if (!run.done || rows_.size() >= most || !has_file(run, "collisions.csv")) return;
@@ -26,7 +26,7 @@ void CollisionSheet::add(const RunRecord& run) {
       full_ = true;
       return;
     }
-    Row& row = rows_.emplace_back(Row{static_cast<uint32_t>(ids_.size() - 1), {}});
+    Row& row = rows_.emplace_back(Row{uint32_t(ids_.size() - 1), {}});
     for (const auto& column : from) row.cells.emplace_back(table.cell(column));
   }
 }
@@ -50,8 +50,7 @@ void CollisionSheet::finish() {
 
   sheet_.fit_table();
   sheet_.freeze(1, 1);
-  worksheet_autofilter(sheet_.get(), 0, 0, to_row(std::max<size_t>(rows_.size(), 1)),
-                       to_column(collision_columns().size()));
+  worksheet_autofilter(sheet_.get(), 0, 0, to_row(max<size_t>(rows_.size(), 1)), to_column(collision_columns().size()));
   sheet_.print_table(0);
 }
 

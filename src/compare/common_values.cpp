@@ -15,9 +15,9 @@ namespace {
 
 /// Returns the text up to the next separator and removes it from `rest`.
 string_view take(string_view& rest, char separator) {
-  const size_t end = std::min(rest.find(separator), rest.size());
+  const size_t end = min(rest.find(separator), rest.size());
   const string_view part = rest.substr(0, end);
-  rest.remove_prefix(std::min(end + 1, rest.size()));
+  rest.remove_prefix(min(end + 1, rest.size()));
   return part;
 }
 
@@ -45,7 +45,7 @@ void CommonValues::compare(string_view other) {
 
   const auto differ = [&](string_view part) {
     const auto from = same_.begin() + (part.data() - text_.data());
-    std::fill(from, from + static_cast<ptrdiff_t>(part.size()), false);
+    std::fill(from, from + ptrdiff_t(part.size()), false);
   };
 
   // Line by line, and within a line value by value.
@@ -71,8 +71,8 @@ vector<SceneValue> CommonValues::values() const {
   for (SceneValue& value : scene_values(folder_ + "/scene.yaml", text_)) {
     // A text or a list may contain commas, and differ after them.
     const size_t length = value.text.find(',') == string::npos ? 1 : value.text.size();
-    const auto from = same_.begin() + static_cast<ptrdiff_t>(std::min(value.offset, same_.size()));
-    const auto until = from + std::min(static_cast<ptrdiff_t>(length), same_.end() - from);
+    const auto from = same_.begin() + ptrdiff_t(min(value.offset, same_.size()));
+    const auto until = from + min(ptrdiff_t(length), same_.end() - from);
     if (std::find(from, until, false) == until) common.push_back(std::move(value));
   }
   return common;

@@ -48,7 +48,7 @@ lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRan
 void set_line(lxw_chart_series* series, size_t number, bool drawn) {
   lxw_chart_line line{};
   line.color = color_of(number);
-  line.dash_type = static_cast<uint8_t>(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
+  line.dash_type = uint8_t(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
   line.width = 1.75F;
   line.none = drawn ? LXW_FALSE : LXW_TRUE;
   chart_series_set_line(series, &line);
@@ -121,13 +121,13 @@ void set_ends(lxw_chart_axis* axis, double low, double high) {
 
 /// The least and the greatest value drawn, including error bars.
 std::pair<double, double> ends_of(const ChartData& data) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = numeric_limits<double>::infinity(), high = -low;
   for (const ChartLine& line : data.lines)
     for (size_t row = 0; row < line.y.size(); ++row) {
       if (!std::isfinite(line.y[row])) continue;
       const double sd = line.spread.empty() || !(line.spread[row] > 0) ? 0 : line.spread[row];
-      low = std::min(low, line.y[row] - sd);
-      high = std::max(high, line.y[row] + sd);
+      low = min(low, line.y[row] - sd);
+      high = max(high, line.y[row] + sd);
     }
   return {low, high};
 }
@@ -135,7 +135,7 @@ std::pair<double, double> ends_of(const ChartData& data) {
 size_t bars_of(const ChartData& data) {
   size_t bars = 0;
   for (const ChartLine& line : data.lines)
-    bars += static_cast<size_t>(std::ranges::count_if(line.spread, [](double sd) { return sd > 0; }));
+    bars += size_t(std::ranges::count_if(line.spread, [](double sd) { return sd > 0; }));
   return bars;
 }
 
@@ -177,7 +177,7 @@ void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) 
   for (size_t k = 0; barred && k < data.lines.size(); ++k)
     for (size_t row = 0; row < data.x.size(); ++row)
       if (const double sd = data.lines[k].spread[row]; sd > 0) {
-        unnamed.push_back(static_cast<int16_t>(data.lines.size() + unnamed.size()));
+        unnamed.push_back(int16_t(data.lines.size() + unnamed.size()));
         add_bar(chart, x, {"Compare", first_row, 1 + k, last_row}, first_row + row, sd, k);
       }
   unnamed.push_back(-1);
@@ -199,7 +199,7 @@ void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t num
   lxw_chart* chart = book_.add_chart(LXW_CHART_SCATTER_STRAIGHT);
   const string& name = series.front().name;
   size_t drawn = 0;
-  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+  double low = numeric_limits<double>::quiet_NaN(), high = low;
 
   for (const PlacedSeries& one : series) {
     if (one.name != name) continue;
@@ -214,8 +214,8 @@ void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t num
 
   // An axis of rounding errors shows nothing.
   constexpr double noise = 1e-6;
-  const double largest = std::max(std::abs(low), std::abs(high));
-  if (high - low < noise * largest) set_ends(chart->y_axis, std::min(low, 0.0), std::max(high, 0.0));
+  const double largest = max(std::abs(low), std::abs(high));
+  if (high - low < noise * largest) set_ends(chart->y_axis, min(low, 0.0), max(high, 0.0));
 
   string title = fmt::format("{} over time", label_of(name));
   if (scenarios > drawn) title += fmt::format(" ({} of {})", drawn, scenarios);
@@ -253,7 +253,7 @@ void CompareSheet::write_differences(const ComparisonPlan& plan, const Differenc
     sheet_.text(charts_row_, columns_of_path + k, differences.runs[k], CellStyle::header);
   ++charts_row_;
 
-  const size_t shown = std::min(differences.rows.size(), most_differences);
+  const size_t shown = min(differences.rows.size(), most_differences);
   for (size_t i = 0; i < shown; ++i, ++charts_row_) {
     const Difference& difference = differences.rows[i];
     sheet_.text(charts_row_, 0, label_of(plan.parameters[difference.parameter]));
@@ -290,7 +290,7 @@ void CompareSheet::write(const ComparisonPlan& plan, const string& line, const D
                          const vector<ChartData>& charts, const vector<PlacedSeries>& series, size_t scenarios) {
   constexpr size_t columns = charts_across * columns_of_chart;
   size_t widest = columns;
-  for (const ChartData& chart : charts) widest = std::max(widest, chart.lines.size() + 1);
+  for (const ChartData& chart : charts) widest = max(widest, chart.lines.size() + 1);
   worksheet_set_column(sheet_.get(), 0, to_column(widest), column_width, nullptr);
 
   sheet_.text(0, 0, plan.title, CellStyle::title);

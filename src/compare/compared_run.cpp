@@ -58,7 +58,7 @@ RunRecord read_run(ComparedRun run, const vector<Measure>& measures) {
 
   if (!record.done) {
     record.summary.assign(summary_columns().size(), "");
-    record.measures.assign(measures.size(), std::numeric_limits<double>::quiet_NaN());
+    record.measures.assign(measures.size(), numeric_limits<double>::quiet_NaN());
     record.texts.resize(measures.size());
     return record;
   }

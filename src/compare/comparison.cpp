@@ -171,7 +171,7 @@ class Comparison {
   FilePlace place_;
   ComparisonPlan plan_;
   size_t count_, failed_ = 0, doubtful_ = 0;
-  const size_t status_ = static_cast<size_t>(find_summary_column("status") - summary_columns().data());
+  const size_t status_ = size_t(find_summary_column("status") - summary_columns().data());
   vector<Measure> measures_;
   Workbook book_;
   CompareSheet charts_;
@@ -206,7 +206,7 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
   }
 
   outcomes.finish();
-  const auto absent = static_cast<size_t>(std::ranges::count(is_absent, true));
+  const auto absent = size_t(std::ranges::count(is_absent, true));
   variation.unrelated = 2 * absent > plan.parameters.size();
   variation.two = plan.parameters.size() > 1 && !variation.unrelated && pivot_parameters(plan, outcomes).has_value();
   variation.scenarios = chosen_scenarios(plan, outcomes, points, variation.unrelated);

@@ -23,13 +23,13 @@ int decimals_of(double number) {
   const char* end = std::to_chars(text, text + sizeof text, number).ptr;
   const char* power = std::find(text, static_cast<char*>(text) + (end - text), 'e');
   const char* point = std::find(static_cast<const char*>(text), power, '.');
-  int decimals = point == power ? 0 : static_cast<int>(power - point) - 1;
+  int decimals = point == power ? 0 : int(power - point) - 1;
   if (power != end) {
     int exponent = 0;
     std::from_chars(power + (power[1] == '+' ? 2 : 1), end, exponent);
     decimals -= exponent;
   }
-  return std::clamp(decimals, 0, most_decimals);
+  return clamp(decimals, 0, most_decimals);
 }
 
 }  // namespace
@@ -39,9 +39,9 @@ void NumberLook::add(double number) {
   any_ = true;
   negative_ = negative_ || number < 0;
   if (number == 0) return;
-  const int decade = static_cast<int>(std::floor(std::log10(std::abs(number))));
-  has_[static_cast<size_t>(std::clamp(decade - least_decade, 0, decades - 1))] = true;
-  decimals_ = std::max(decimals_, decimals_of(number));
+  const int decade = int(std::floor(std::log10(std::abs(number))));
+  has_[size_t(clamp(decade - least_decade, 0, decades - 1))] = true;
+  decimals_ = max(decimals_, decimals_of(number));
 }
 
 NumberLook::Form NumberLook::form() const {
@@ -49,15 +49,15 @@ NumberLook::Form NumberLook::form() const {
   if (last == has_.rend()) return {};
 
   // The decades of the largest number, and of the smallest that is not noise.
-  const auto index = static_cast<int>(has_.rend() - last) - 1;
+  const auto index = int(has_.rend() - last) - 1;
   int low = index;
-  for (int k = std::max(0, index - noise); k < low; ++k)
-    if (has_[static_cast<size_t>(k)]) low = k;
+  for (int k = max(0, index - noise); k < low; ++k)
+    if (has_[size_t(k)]) low = k;
   const int top = index + least_decade;
   low += least_decade;
 
-  Form form{false, std::max(shown - 1 - top, shown_of_least - 1 - low), std::max(top + 1, 1)};
-  form.decimals = std::clamp(form.decimals, 0, decimals_);
+  Form form{false, max(shown - 1 - top, shown_of_least - 1 - low), max(top + 1, 1)};
+  form.decimals = clamp(form.decimals, 0, decimals_);
   const bool whole = decimals_ == 0;
   form.power = whole ? top > noise : form.digits + form.decimals > most_digits || top < 1 - shown;
   if (form.power) form.decimals = shown - 1;
@@ -67,7 +67,7 @@ NumberLook::Form NumberLook::form() const {
 string NumberLook::format() const {
   if (!any_) return "General";
   const Form form = this->form();
-  const string decimals = form.decimals > 0 ? "." + string(static_cast<size_t>(form.decimals), '0') : "";
+  const string decimals = form.decimals > 0 ? "." + string(size_t(form.decimals), '0') : "";
   if (form.power) return "0" + decimals + "E+00";
   return (form.digits > 4 ? "#,##0" : "0") + decimals;
 }
@@ -77,7 +77,7 @@ size_t NumberLook::width() const {
   const Form form = this->form();
   const int before = form.power ? 1 : form.digits + (form.digits > 4 ? (form.digits - 1) / 3 : 0);
   const int after = form.decimals > 0 ? form.decimals + 1 : 0;
-  return static_cast<size_t>(before + after + (form.power ? 5 : 0) + (negative_ ? 1 : 0));
+  return size_t(before + after + (form.power ? 5 : 0) + (negative_ ? 1 : 0));
 }
 
 }  // namespace carom

@@ -44,7 +44,7 @@ void for_cells(const ComparisonPlan& plan, size_t measures, const Outcomes& outc
   size_t column = 0;
   for (const Varied& varied : outcomes.varied())
     if (varied.parameter != plan.seed) use(column++, varied.values[varied.of_point[point]]);
-  use(column++, Cell{{}, static_cast<double>(outcomes.runs(point))});
+  use(column++, Cell{{}, double(outcomes.runs(point))});
   for (size_t k = 0; k < measures; ++k)
     for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(outcomes.spread(point, k))});
 }
@@ -57,18 +57,18 @@ void Spread::add(double value) {
   min_ = count_ == 1 ? value : std::min(min_, value);
   max_ = count_ == 1 ? value : std::max(max_, value);
   const double before = value - mean_;
-  mean_ += before / static_cast<double>(count_);
+  mean_ += before / double(count_);
   squares_ += before * (value - mean_);
 }
 
 double Spread::sd() const {
-  return count_ > 1 ? std::sqrt(squares_ / static_cast<double>(count_ - 1)) : std::numeric_limits<double>::quiet_NaN();
+  return count_ > 1 ? std::sqrt(squares_ / double(count_ - 1)) : numeric_limits<double>::quiet_NaN();
 }
 
 Outcomes::Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs)
     : seed_(plan.seed),
       measures_(measures),
-      stride_(plan.seed ? 1 : 1 + (std::max<size_t>(runs, 1) - 1) / most_points),
+      stride_(plan.seed ? 1 : 1 + (max<size_t>(runs, 1) - 1) / most_points),
       varied_(plan.parameters.size()),
       numbers_(plan.parameters.size()) {
   // Repeats are points of their scenarios, whose number is not known.
@@ -90,7 +90,7 @@ size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vec
   for (size_t p = 0; p < varied_.size(); ++p) {
     if (p == seed_) continue;
     const string& text = run.values.at(p);
-    const auto [found, fresh] = numbers_[p].emplace(text, static_cast<uint32_t>(varied_[p].values.size()));
+    const auto [found, fresh] = numbers_[p].emplace(text, uint32_t(varied_[p].values.size()));
     if (fresh) {
       varied_[p].values.push_back(cell_of(text));
       varied_[p].numeric = varied_[p].numeric && varied_[p].values.back().is_number();
@@ -108,7 +108,7 @@ size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vec
     if (seed_)
       spreads_.resize(spreads_.size() + measures_);
     else
-      values_.resize(values_.size() + measures_, std::numeric_limits<double>::quiet_NaN());
+      values_.resize(values_.size() + measures_, numeric_limits<double>::quiet_NaN());
     for (size_t p = 0, k = 0; p < varied_.size(); ++p)
       if (p != seed_) varied_[p].of_point.push_back(key[k++]);
   }
@@ -158,7 +158,7 @@ void Outcomes::finish() {
 }
 
 bool Outcomes::follows(const Varied& a, const Varied& b) const {
-  constexpr uint32_t unknown = std::numeric_limits<uint32_t>::max();
+  constexpr uint32_t unknown = numeric_limits<uint32_t>::max();
   vector<uint32_t> of(a.values.size(), unknown);
   for (size_t i = 0; i < a.of_point.size(); ++i) {
     uint32_t& known = of[a.of_point[i]];
@@ -217,7 +217,7 @@ void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Me
 
   sheet.fit_table();
   sheet.freeze(1, parameters);
-  worksheet_autofilter(sheet.get(), 0, 0, to_row(std::max<size_t>(row - 1, 1)), to_column(header.size() - 1));
+  worksheet_autofilter(sheet.get(), 0, 0, to_row(max<size_t>(row - 1, 1)), to_column(header.size() - 1));
   sheet.print_table(0);
 }
 

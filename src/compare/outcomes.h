@@ -15,11 +15,11 @@ class Spread {
   void add(double value);  // ignores NaN and infinity
   size_t count() const { return count_; }
   // Undefined (NaN) for too few values: none for the mean, one for sd.
-  double mean() const { return count_ > 0 ? mean_ : std::numeric_limits<double>::quiet_NaN(); }
+  double mean() const { return count_ > 0 ? mean_ : numeric_limits<double>::quiet_NaN(); }
   /// With n - 1 in the denominator.
   double sd() const;
-  double min() const { return count_ > 0 ? min_ : std::numeric_limits<double>::quiet_NaN(); }
-  double max() const { return count_ > 0 ? max_ : std::numeric_limits<double>::quiet_NaN(); }
+  double min() const { return count_ > 0 ? min_ : numeric_limits<double>::quiet_NaN(); }
+  double max() const { return count_ > 0 ? max_ : numeric_limits<double>::quiet_NaN(); }
 
  private:
   size_t count_ = 0;
@@ -42,7 +42,7 @@ class Outcomes {
   static constexpr size_t most_points = 100'000;
 
   Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs);
-  static constexpr size_t no_point = static_cast<size_t>(-1);
+  static constexpr size_t no_point = size_t(-1);
   /// Returns the point of the run, or no_point if it is left out.
   size_t add(size_t number, const ComparedRun& run, bool done, const vector<double>& measures);
   /// To be called after the last add().

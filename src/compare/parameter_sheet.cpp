@@ -43,7 +43,7 @@ size_t ParameterSheet::write_ranges(const Outcomes& outcomes, size_t row) {
       continue;
     }
 
-    sheet_.number(row, 2, static_cast<double>(varied.values.size()), CellStyle::whole);
+    sheet_.number(row, 2, double(varied.values.size()), CellStyle::whole);
     sheet_.cell(row, 3, varied.values.front());
     sheet_.cell(row++, 4, varied.values.back());
   }

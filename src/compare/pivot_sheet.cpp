@@ -64,9 +64,9 @@ optional<std::pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan,
 void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
                  const Outcomes& outcomes, std::pair<size_t, size_t> parameters, const SummaryPlace& summary) {
   const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
-  const size_t height = std::min(down.values.size(), most_labels);
-  const size_t width = std::min(across.values.size(), most_labels);
-  const size_t blocks = std::min(measures.size(), most_blocks);
+  const size_t height = min(down.values.size(), most_labels);
+  const size_t width = min(across.values.size(), most_labels);
+  const size_t blocks = min(measures.size(), most_blocks);
 
   // A formula takes its criteria from the cells of the heads.
   const bool literal = std::ranges::all_of(down.values, is_literal) && std::ranges::all_of(across.values, is_literal);
@@ -80,13 +80,13 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
 
   sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
   sheet.note(
-      1, std::max<size_t>(width + 1, 2),
+      1, max<size_t>(width + 1, 2),
       fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
                   label_of(plan.parameters[parameters.second]), formulas ? "; formulas over the sheet Summary" : "",
                   height < down.values.size() || width < across.values.size()
                       ? fmt::format("; only the first {} values of each", most_labels)
                       : ""),
-      10 * static_cast<double>(std::max<size_t>(width + 1, 2)));
+      10 * double(max<size_t>(width + 1, 2)));
 
   // A block for each measure: its means, then their table.
   size_t row = 3;
@@ -97,13 +97,13 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
       const Spread spread = outcomes.spread(i, block);
       if (spread.count() == 0) continue;
       Mean& mean = means[down.of_point[i] * width + across.of_point[i]];
-      mean.sum += spread.mean() * static_cast<double>(spread.count());
+      mean.sum += spread.mean() * double(spread.count());
       mean.count += spread.count();
     }
 
     NumberLook look;
     for (const Mean& mean : means)
-      if (mean.count > 0) look.add(mean.sum / static_cast<double>(mean.count));
+      if (mean.count > 0) look.add(mean.sum / double(mean.count));
 
     sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
     const size_t head = row++;
@@ -115,7 +115,7 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
       for (size_t k = 0; k < width; ++k) {
         const Mean& mean = means[i * width + k];
         if (mean.count == 0) continue;
-        const double value = mean.sum / static_cast<double>(mean.count);
+        const double value = mean.sum / double(mean.count);
 
         if (!formulas) {
           sheet.number(row, 1 + k, value, CellStyle::plain, &look);

@@ -25,13 +25,13 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
       std::ranges::stable_sort(order, [&](size_t a, size_t b) { return varied.of_point[a] < varied.of_point[b]; });
     }
 
-    for (size_t k = 0; k < std::min(all, count); ++k)
+    for (size_t k = 0; k < min(all, count); ++k)
       chosen.push_back(order[all <= count ? k : k * (all - 1) / (count - 1)]);
     return chosen;
   }
 
   // The next one is always the farthest from those that are chosen.
-  vector<double> nearest(all, std::numeric_limits<double>::infinity());  // squared distance to those chosen
+  vector<double> nearest(all, numeric_limits<double>::infinity());  // squared distance to those chosen
   size_t next = 0;
   while (chosen.size() < count && nearest[next] > 0) {
     chosen.push_back(next);
@@ -41,13 +41,12 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
       double distance = 0;
       for (const size_t p : parameters) {
         const Varied& varied = outcomes.varied()[p];
-        const double width = static_cast<double>(varied.values.size()) - 1;
-        const double way =
-            (static_cast<double>(varied.of_point[i]) - static_cast<double>(varied.of_point[last])) / width;
+        const double width = double(varied.values.size()) - 1;
+        const double way = (double(varied.of_point[i]) - double(varied.of_point[last])) / width;
         distance += way * way;
       }
 
-      nearest[i] = std::min(nearest[i], distance);
+      nearest[i] = min(nearest[i], distance);
       if (nearest[i] > nearest[next] || i == 0) next = i;
     }
   }
@@ -98,7 +97,7 @@ ChosenScenarios chosen_scenarios(const ComparisonPlan& plan, const Outcomes& out
   chosen.all = outcomes.points();
   vector<uint32_t> number(outcomes.points(), ChosenScenarios::none);
   for (const size_t point : points) {
-    number[point] = static_cast<uint32_t>(chosen.names.size());
+    number[point] = uint32_t(chosen.names.size());
 
     // Named by its values.
     string name;

@@ -21,7 +21,7 @@ namespace {
 /// Bytes. A longer file is not read for a chart of 2,000 points.
 constexpr uint64_t longest_file = 64 << 20;
 
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_value = numeric_limits<double>::quiet_NaN();
 
 bool is_short(const RunRecord& run, const char* name) {
   const auto size = stored_size(run.folder.get(), name);
@@ -133,10 +133,10 @@ void SeriesGatherer::take(uint32_t scenario, SeriesGroup part) {
       return;
     }
     for (size_t k = 0; k < part.columns.size(); ++k) {
-      SeriesColumn& mean = *(same + static_cast<ptrdiff_t>(k));
+      SeriesColumn& mean = *(same + ptrdiff_t(k));
       ++mean.runs;
       for (size_t i = 0; i < mean.values.size(); ++i)
-        mean.values[i] += (part.columns[k].values[i] - mean.values[i]) / static_cast<double>(mean.runs);
+        mean.values[i] += (part.columns[k].values[i] - mean.values[i]) / double(mean.runs);
     }
     return;
   }
@@ -162,11 +162,11 @@ vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series
   // The heads leave room for the longest name.
   constexpr double least = 16;  // characters
   size_t longest = 0;
-  for (const string& name : series.scenarios().names) longest = std::max(longest, letters_of(name));
-  sheet.set_head_row(0, std::min<size_t>(2 + longest / static_cast<size_t>(least), 5));
+  for (const string& name : series.scenarios().names) longest = max(longest, letters_of(name));
+  sheet.set_head_row(0, min<size_t>(2 + longest / size_t(least), 5));
 
   for (const SeriesGroup& group : series.groups()) {
-    rows = std::max(rows, group.times.size());
+    rows = max(rows, group.times.size());
     sheet.head(0, column, "time (s)");
     look_at(group.times);
     const size_t time_column = column++;

@@ -52,7 +52,7 @@ class SeriesGatherer {
 struct PlacedSeries {
   string scenario, name;
   size_t time_column, value_column, rows;  // the first row is 1
-  double least = std::numeric_limits<double>::quiet_NaN(), greatest = least;
+  double least = numeric_limits<double>::quiet_NaN(), greatest = least;
 };
 
 /// Writes the sheet: a column of times for each group, then its columns, "kinetic energy (J): restitution = 0.5".

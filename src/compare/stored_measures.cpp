@@ -24,7 +24,7 @@
 namespace carom {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double undefined = numeric_limits<double>::quiet_NaN();
 
 /// The file from which a measure can be derived. Null: from none.
 const char* table_of(const Measure& measure) {
@@ -105,7 +105,7 @@ Measured StoredMeasures::value(const Measure& measure, const vector<string>& sum
 
 double StoredMeasures::number(const Measure& measure, const vector<string>& summary) {
   if (measure.form == MeasureForm::column) {
-    const auto column = static_cast<size_t>(measure.column - summary_columns().data());
+    const auto column = size_t(measure.column - summary_columns().data());
     return number_in(summary[column]).value_or(undefined);
   }
 
@@ -163,7 +163,7 @@ double StoredMeasures::quantity(const Measure& measure, size_t body) {
 double StoredMeasures::at_end(const Measure& measure) {
   const auto found =
       std::find_if(ends().begin(), ends().end(), [&](const EndMotion& m) { return m.body == measure.body; });
-  return found == ends().end() ? undefined : quantity(measure, static_cast<size_t>(found - ends().begin()));
+  return found == ends().end() ? undefined : quantity(measure, size_t(found - ends().begin()));
 }
 
 double StoredMeasures::counted(const Measure& measure, const vector<string>& summary) {
@@ -185,7 +185,7 @@ string StoredMeasures::second_body(string_view string) {
   const vector<std::string>& names = scene().roster.strings;
   const auto found = std::ranges::find(names, string);
   if (found == names.end()) return {};
-  const Entity other = scene().world.strings[static_cast<size_t>(found - names.begin())].other;
+  const Entity other = scene().world.strings[size_t(found - names.begin())].other;
   return other == no_entity ? std::string() : scene().roster.name(other);
 }
 
@@ -236,7 +236,7 @@ StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
     ++found.entries;
   }
 
-  found.inside = static_cast<double>(inside.size());
+  found.inside = double(inside.size());
   return found;
 }
 

@@ -127,7 +127,7 @@ void SummarySheet::write_sheet_heads() {
   constexpr size_t columns_of_note = 8;
   constexpr double width_of_note = 100;  // characters
   if (const string text = folded(); !text.empty()) {
-    sheet_.note(0, std::min(shown_.size(), columns_of_note), text, width_of_note);
+    sheet_.note(0, min(shown_.size(), columns_of_note), text, width_of_note);
     head_row_ = 1;
   }
 
@@ -168,7 +168,7 @@ void SummarySheet::finish() {
   write_sheet_heads();
   write_rows();
 
-  const size_t rows = std::min(count_, most_rows - first_row());
+  const size_t rows = min(count_, most_rows - first_row());
   const auto last_row = to_row(head_row_ + rows);
   const auto last_column = to_column(shown_.size() - 1);
 
@@ -228,7 +228,7 @@ unique_ptr<OutputFile> SummarySheet::take_table() {
 
 size_t SummarySheet::place_of(size_t column) const {
   const auto found = std::ranges::find(shown_, column);
-  return found == shown_.end() ? 0 : static_cast<size_t>(found - shown_.begin());
+  return found == shown_.end() ? 0 : size_t(found - shown_.begin());
 }
 
 vector<size_t> SummarySheet::parameter_columns() const {

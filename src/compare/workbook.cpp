@@ -85,9 +85,9 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
 size_t longest_word(string_view text) {
   size_t most = 0;
   while (!text.empty()) {
-    const size_t end = std::min(text.find(' '), text.size());
-    most = std::max(most, letters_of(text.substr(0, end)));
-    text.remove_prefix(std::min(end + 1, text.size()));
+    const size_t end = min(text.find(' '), text.size());
+    most = max(most, letters_of(text.substr(0, end)));
+    text.remove_prefix(min(end + 1, text.size()));
   }
   return most;
 }
@@ -130,7 +130,7 @@ lxw_format* Worksheet::format(CellStyle style, const NumberLook* look) const {
 void Worksheet::widen(size_t column, size_t characters, CellStyle style) {
   if (style == CellStyle::title || style == CellStyle::note) return;
   if (widths_.size() <= column) widths_.resize(column + 1);
-  widths_[column] = std::max(widths_[column], characters);
+  widths_[column] = max(widths_[column], characters);
 }
 
 void Worksheet::text(size_t row, size_t column, string_view text, CellStyle style) {
@@ -168,19 +168,19 @@ void Worksheet::formula(size_t row, size_t column, const string& formula, double
 
 void Worksheet::head(size_t row, size_t column, string_view text, CellStyle style) {
   if (words_.size() <= column) words_.resize(column + 1);
-  words_[column] = std::max(words_[column], longest_word(text));
+  words_[column] = max(words_[column], longest_word(text));
   const string shown = shortened(text, longest_text);
   must(worksheet_write_string(sheet_, to_row(row), to_column(column), shown.c_str(), format(style)));
 }
 
 void Worksheet::set_head_row(size_t row, size_t lines) {
-  worksheet_set_row(sheet_, to_row(row), (static_cast<double>(lines) + 0.25) * line_height, nullptr);
+  worksheet_set_row(sheet_, to_row(row), (double(lines) + 0.25) * line_height, nullptr);
 }
 
 void Worksheet::note(size_t row, size_t columns, string_view text, double width) {
   const string shown = shortened(text, longest_text);
-  const double lines = std::ceil(1.1 * static_cast<double>(letters_of(shown)) / std::max(width, 1.0));
-  worksheet_set_row(sheet_, to_row(row), std::clamp(lines, 1.0, 25.0) * line_height, nullptr);
+  const double lines = std::ceil(1.1 * double(letters_of(shown)) / max(width, 1.0));
+  worksheet_set_row(sheet_, to_row(row), clamp(lines, 1.0, 25.0) * line_height, nullptr);
   if (columns < 2)
     must(worksheet_write_string(sheet_, to_row(row), 0, shown.c_str(), format(CellStyle::wrapped)));
   else
@@ -189,10 +189,10 @@ void Worksheet::note(size_t row, size_t columns, string_view text, double width)
 }
 
 void Worksheet::fit(size_t column, double least, double most, double more) {
-  const double needed = column < widths_.size() ? static_cast<double>(widths_[column]) + 1 + more : least;
+  const double needed = column < widths_.size() ? double(widths_[column]) + 1 + more : least;
   const auto number = to_column(column);
-  worksheet_set_column(sheet_, number, number, std::clamp(needed, least, most), nullptr);
-  total_ += std::clamp(needed, least, most);
+  worksheet_set_column(sheet_, number, number, clamp(needed, least, most), nullptr);
+  total_ += clamp(needed, least, most);
 }
 
 void Worksheet::fit_all(double least, double most, double more) {
@@ -202,13 +202,13 @@ void Worksheet::fit_all(double least, double most, double more) {
 
 void Worksheet::fit_table(double least) {
   constexpr double most = 40, button = 3;
-  const size_t columns = std::max(widths_.size(), words_.size());
+  const size_t columns = max(widths_.size(), words_.size());
   widths_.resize(columns);
   words_.resize(columns);
   total_ = 0;
   for (size_t column = 0; column < columns; ++column) {
-    const double needed = static_cast<double>(std::max(widths_[column] + 1, words_[column])) + button;
-    const double width = std::clamp(needed, least, most);
+    const double needed = double(max(widths_[column] + 1, words_[column])) + button;
+    const double width = clamp(needed, least, most);
     const auto number = to_column(column);
     worksheet_set_column(sheet_, number, number, width, nullptr);
     total_ += width;
@@ -233,7 +233,7 @@ void Worksheet::set_paper() {
 void Worksheet::print_wide() {
   set_paper();
   const double pages = std::ceil(total_ / characters_across);
-  worksheet_fit_to_pages(sheet_, static_cast<uint16_t>(std::clamp(pages, 1.0, 1000.0)), 0);
+  worksheet_fit_to_pages(sheet_, uint16_t(clamp(pages, 1.0, 1000.0)), 0);
 }
 
 void Worksheet::print_pages(const vector<size_t>& rows) {
@@ -281,7 +281,7 @@ Worksheet& Workbook::add(const char* name, bool streamed) {
 }
 
 lxw_chart* Workbook::add_chart(lxw_chart_type type) {
-  return made(workbook_add_chart(book_, static_cast<uint8_t>(type)));
+  return made(workbook_add_chart(book_, uint8_t(type)));
 }
 
 void Workbook::write(OutputFile& file) {
@@ -308,7 +308,7 @@ void Workbook::write(OutputFile& file) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", place_, name_);
     if (n == 0) break;
-    file.write({piece.data(), static_cast<size_t>(n)});
+    file.write({piece.data(), size_t(n)});
     at += n;
   }
 }

@@ -18,7 +18,7 @@ namespace carom {
 /// A value in a table.
 struct Cell {
   string text;
-  double number = std::numeric_limits<double>::quiet_NaN();  // finite: the text is this number
+  double number = numeric_limits<double>::quiet_NaN();  // finite: the text is this number
   bool is_number() const { return number == number; }
 };
 
@@ -46,10 +46,10 @@ inline constexpr size_t most_rows = 1'048'576, most_columns = 16'384;
 
 /// The library's types of rows and columns.
 inline lxw_row_t to_row(size_t row) {
-  return static_cast<lxw_row_t>(row);
+  return lxw_row_t(row);
 }
 inline lxw_col_t to_column(size_t column) {
-  return static_cast<lxw_col_t>(column);
+  return lxw_col_t(column);
 }
 
 /// The formats of a workbook, each made once.

@@ -35,16 +35,16 @@ ssize_t failed() {
 ssize_t read_file(void* cookie, char* to, size_t size) {
   File& file = *static_cast<File*>(cookie);
   ssize_t n;
-  do n = pread(file.descriptor.get(), to, size, static_cast<off_t>(file.at));
+  do n = pread(file.descriptor.get(), to, size, off_t(file.at));
   while (n < 0 && errno == EINTR);
   if (n < 0) return failed();
-  const uint64_t expected = std::min<uint64_t>(size, file.size - std::min(file.at, file.size));
+  const uint64_t expected = min<uint64_t>(size, file.size - min(file.at, file.size));
   if (n == 0 && expected > 0) {
     // The file has become shorter.
     errno = EIO;
     return failed();
   }
-  file.at += static_cast<uint64_t>(n);
+  file.at += uint64_t(n);
   return n;
 }
 
@@ -58,19 +58,18 @@ ssize_t write_file(void* cookie, const char* from, size_t size) {
   }
 
   for (size_t done = 0; done < size;) {
-    const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, static_cast<off_t>(file.size + done));
+    const ssize_t n = pwrite(file.descriptor.get(), from + done, size - done, off_t(file.size + done));
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       failed();
       return 0;
     }
-    done += static_cast<size_t>(n);
+    done += size_t(n);
   }
 
-  file.crc =
-      static_cast<uint32_t>(crc32(file.crc, reinterpret_cast<const unsigned char*>(from), static_cast<unsigned>(size)));
+  file.crc = uint32_t(crc32(file.crc, reinterpret_cast<const unsigned char*>(from), unsigned(size)));
   file.at = file.size += size;
-  return static_cast<ssize_t>(size);
+  return ssize_t(size);
 }
 
 int seek_file(void* cookie, off64_t* offset, int whence) {
@@ -78,7 +77,7 @@ int seek_file(void* cookie, off64_t* offset, int whence) {
   const auto from = static_cast<off64_t>(whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.size : 0);
   if (from + *offset < 0) return -1;
   *offset += from;
-  file.at = static_cast<uint64_t>(*offset);
+  file.at = uint64_t(*offset);
   return 0;
 }
 
@@ -116,11 +115,11 @@ vector<Entry> entries_of(const string& path, bool& whole) {
     if (!whole) break;
 
     int n;
-    while ((n = unzReadCurrentFile(archive, piece.data(), static_cast<unsigned>(piece.size()))) > 0) {
+    while ((n = unzReadCurrentFile(archive, piece.data(), unsigned(piece.size()))) > 0) {
     }
     // Closing compares the bytes with the entry's checksum.
     whole = unzCloseCurrentFile(archive) == UNZ_OK && n == 0;
-    entries.push_back({info.uncompressed_size, static_cast<uint32_t>(info.crc)});
+    entries.push_back({info.uncompressed_size, uint32_t(info.crc)});
   }
 
   whole = whole && code == UNZ_END_OF_LIST_OF_FILE && entries.size() == all.number_entry;
@@ -135,7 +134,7 @@ bool ends_whole(int archive) {
   constexpr off_t record = 22;
   char begin[signature.size()] = {};
   const off_t size = lseek(archive, 0, SEEK_END);
-  return size >= record && pread(archive, begin, sizeof begin, size - record) == static_cast<ssize_t>(sizeof begin) &&
+  return size >= record && pread(archive, begin, sizeof begin, size - record) == ssize_t(sizeof begin) &&
          string_view(begin, sizeof begin) == signature;
 }
 

@@ -41,11 +41,11 @@ string text_of(int file) {
   string text(1 << 20, '\0');
   size_t size = 0;
   while (size < text.size()) {
-    const ssize_t n = pread(file, text.data() + size, text.size() - size, static_cast<off_t>(size));
+    const ssize_t n = pread(file, text.data() + size, text.size() - size, off_t(size));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", {-1, "the output of a program"}, "");
     if (n == 0) break;
-    size += static_cast<size_t>(n);
+    size += size_t(n);
   }
   text.resize(size);
   return text;
@@ -72,7 +72,7 @@ optional<string> find_program(const string& name) {
   string_view rest = path ? path : "";
   while (!rest.empty()) {
     const string_view folder = rest.substr(0, rest.find(':'));
-    rest.remove_prefix(std::min(rest.size(), folder.size() + 1));
+    rest.remove_prefix(min(rest.size(), folder.size() + 1));
     if (folder.empty()) continue;
 
     std::error_code error;
@@ -146,12 +146,12 @@ Child::Sent Child::send(const void* bytes, size_t size, std::chrono::millisecond
     const ssize_t n = ::send(input_.get(), from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n >= 0) {
       from += n;
-      size -= static_cast<size_t>(n);
+      size -= size_t(n);
       limit = Clock::now() + patience;
     } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
       // The program is busy. Wait for room, a little at a time.
       pollfd request{input_.get(), POLLOUT, 0};
-      const int ready = poll(&request, 1, static_cast<int>(glance.count()));
+      const int ready = poll(&request, 1, int(glance.count()));
       if (ready < 0 && errno != EINTR) std::this_thread::sleep_for(glance);
       stop_check()();
 
@@ -189,7 +189,7 @@ optional<int> Child::wait(std::chrono::milliseconds patience) {
   while (!has_ended() && !abandoned_ && Clock::now() < limit) {
     stop_check()();
     std::this_thread::sleep_for(pause);
-    pause = std::min(pause * 2, std::chrono::microseconds(20'000));
+    pause = min(pause * 2, std::chrono::microseconds(20'000));
   }
   return exit_code_;
 }

@@ -19,7 +19,7 @@ const array<CollisionsChart::Row, 4> CollisionsChart::rows = {
 
 void CollisionsChart::add(double time, CollisionKind kind) {
   for (size_t k = 0; k < rows.size(); ++k)
-    if (rows[k].kind == kind) ++counts_[k][static_cast<size_t>(interval_of(time, 0, end_of(scene_), intervals))];
+    if (rows[k].kind == kind) ++counts_[k][size_t(interval_of(time, 0, end_of(scene_), intervals))];
 }
 
 uint64_t CollisionsChart::total() const {
@@ -31,13 +31,13 @@ uint64_t CollisionsChart::total() const {
 int CollisionsChart::joined() const {
   int join = 1;
   for (const int divisor : {2, 3, 4, 5, 6, 8, 10, 12})
-    if (static_cast<int>(intervals) / divisor >= intervals_for(total())) join = divisor;
+    if (int(intervals) / divisor >= intervals_for(total())) join = divisor;
   return join;
 }
 
 Histogram CollisionsChart::histogram(CollisionKind kind) const {
-  const auto join = static_cast<size_t>(joined());
-  Histogram bars{end_of(scene_) * static_cast<double>(join) / intervals, {}};
+  const auto join = size_t(joined());
+  Histogram bars{end_of(scene_) * double(join) / intervals, {}};
   bars.counts.resize(intervals / join);
   for (size_t k = 0; k < rows.size(); ++k)
     if (rows[k].kind == kind)
@@ -56,12 +56,12 @@ Plot CollisionsChart::plot() const {
   if (!(end_of(scene_) > 0)) return plot;
 
   // Bands above each other, a kind each.
-  vector<double> lower(intervals / static_cast<size_t>(joined()), 0);
+  vector<double> lower(intervals / size_t(joined()), 0);
   for (const Row& row : rows) {
     const Histogram bars = histogram(row.kind);
     if (bars.total() == 0) continue;
     vector<double> upper = lower;
-    for (size_t i = 0; i < upper.size(); ++i) upper[i] += static_cast<double>(bars.counts[i]) / bars.width;
+    for (size_t i = 0; i < upper.size(); ++i) upper[i] += double(bars.counts[i]) / bars.width;
     plot.series.push_back({string(row.name), row.style, stairs(bars.width, lower, upper), PlotForm::band, 0.2});
     lower = std::move(upper);
   }

@@ -33,20 +33,20 @@ size_t Deflation::pack(span<const uint8_t> bytes, uint8_t* to, size_t room, Form
   stream.hist_bits = 0;
   stream.level = 1;
   stream.level_buf = work_.data();
-  stream.level_buf_size = static_cast<uint32_t>(work_.size());
+  stream.level_buf_size = uint32_t(work_.size());
   stream.gzip_flag = format == Format::zlib ? IGZIP_ZLIB : IGZIP_DEFLATE;
   stream.next_in = const_cast<uint8_t*>(bytes.data());
   stream.next_out = to;
-  stream.avail_out = static_cast<uint32_t>(room);
+  stream.avail_out = uint32_t(room);
 
   // First the first bytes.
-  const size_t few = std::min(first, bytes.size());
-  stream.avail_in = static_cast<uint32_t>(few);
+  const size_t few = min(first, bytes.size());
+  stream.avail_in = uint32_t(few);
   stream.flush = SYNC_FLUSH;
   bool packed = isal_deflate(&stream) == COMP_OK;
 
   // Then the others.
-  stream.avail_in += static_cast<uint32_t>(bytes.size() - few);
+  stream.avail_in += uint32_t(bytes.size() - few);
   stream.flush = NO_FLUSH;
   stream.end_of_stream = 1;
   packed = packed && isal_deflate(&stream) == COMP_OK && stream.internal_state.state == ZSTATE_END;

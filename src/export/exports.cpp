@@ -102,7 +102,7 @@ struct Exports::Impl {
   void open_pictures() {
     const Output& output = scene.output;
     plan = plan_pictures(scene);
-    if (output.frames) frames.emplace(*folder, std::min(share_of_processors(), most_encoders));
+    if (output.frames) frames.emplace(*folder, min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(scene).size);
     for (size_t i = 0; i < plan.streams.size(); ++i)

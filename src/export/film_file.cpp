@@ -44,7 +44,7 @@ string probed(const FilmTools& tools, int folder, const string& name, const stri
 uint64_t take_number(string_view& text) {
   uint64_t value = 0;
   const auto end = std::from_chars(text.data(), text.data() + text.size(), value).ptr;
-  text.remove_prefix(std::min(text.size(), static_cast<size_t>(end - text.data()) + 1));
+  text.remove_prefix(min(text.size(), size_t(end - text.data()) + 1));
   return value;
 }
 
@@ -156,8 +156,8 @@ FilmFacts film_facts(const FilmTools& tools, const FilePlace& place, const strin
   // The numbers in the order in which they were asked for.
   string_view text = output;
   FilmFacts facts;
-  facts.width = static_cast<int>(take_number(text));
-  facts.height = static_cast<int>(take_number(text));
+  facts.width = int(take_number(text));
+  facts.height = int(take_number(text));
   facts.rate = take_number(text);
   facts.per = take_number(text);
   facts.frames = take_number(text);

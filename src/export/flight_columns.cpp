@@ -41,16 +41,16 @@ uint32_t ColumnWriter::append(span<const uint8_t> bytes, vector<char>& to) {
   const size_t packed = deflation_.pack(bytes, place, bytes.size(), Deflation::Format::plain);
   if (packed > 0 && packed < bytes.size()) {
     to.resize(begin + packed);
-    return static_cast<uint32_t>(packed);
+    return uint32_t(packed);
   }
-  std::ranges::copy(bytes, to.begin() + static_cast<ptrdiff_t>(begin));
+  std::ranges::copy(bytes, to.begin() + ptrdiff_t(begin));
   return 0;
 }
 
 /// Seven bits a byte, the lowest first. The highest bit of a byte: there are more.
 void ColumnWriter::number(Column column, uint64_t value) {
-  for (; value > 127; value >>= 7) byte(column, static_cast<uint8_t>(value | 128));
-  byte(column, static_cast<uint8_t>(value));
+  for (; value > 127; value >>= 7) byte(column, uint8_t(value | 128));
+  byte(column, uint8_t(value));
 }
 
 void ColumnWriter::difference(Column column, double predicted, double actual) {
@@ -59,15 +59,15 @@ void ColumnWriter::difference(Column column, double predicted, double actual) {
   if (a == 0) return byte(column, DifferenceCode::zero);
 
   // Positive and negative ones alternate: 0, -1, 1, -2, ...
-  const auto difference = static_cast<int64_t>((a & ~sign) - (p & ~sign));
-  const uint64_t folded = static_cast<uint64_t>(difference) << 1 ^ static_cast<uint64_t>(difference >> 63);
-  const auto length = static_cast<unsigned>(std::bit_width(folded));
+  const auto difference = int64_t((a & ~sign) - (p & ~sign));
+  const uint64_t folded = uint64_t(difference) << 1 ^ uint64_t(difference >> 63);
+  const auto length = unsigned(std::bit_width(folded));
   if (length > 63) {
     byte(column, DifferenceCode::all);
     bits(a & 0xffffffff, 32);
     return bits(a >> 32, 32);
   }
-  byte(column, static_cast<uint8_t>(length + ((a ^ p) & sign ? DifferenceCode::turned : 0)));
+  byte(column, uint8_t(length + ((a ^ p) & sign ? DifferenceCode::turned : 0)));
   if (length > 1) bits(folded & ~(uint64_t{1} << (length - 1)), length - 1);
 }
 
@@ -95,7 +95,7 @@ void ColumnWriter::pack(vector<char>& to) {
   const size_t begin = to.size();
   to.resize(begin + sizeof sizes);
   for (size_t k = 0; k < column_count; ++k) {
-    sizes.bytes[k][0] = static_cast<uint32_t>(columns_[k].size());
+    sizes.bytes[k][0] = uint32_t(columns_[k].size());
     sizes.bytes[k][1] = append(columns_[k], to);
     columns_[k].clear();
   }
@@ -129,9 +129,9 @@ bool ColumnReader::unpack(span<const char> packed) {
       inflate_state stream;
       isal_inflate_init(&stream);
       stream.next_in = reinterpret_cast<uint8_t*>(const_cast<char*>(packed.data()));
-      stream.avail_in = static_cast<uint32_t>(stored);
+      stream.avail_in = uint32_t(stored);
       stream.next_out = column.bytes.data();
-      stream.avail_out = static_cast<uint32_t>(size);
+      stream.avail_out = uint32_t(size);
       const bool whole = isal_inflate_stateless(&stream) == ISAL_DECOMP_OK && stream.avail_out == 0;
       if (!whole) return false;
     }
@@ -152,7 +152,7 @@ bool ColumnReader::at_end() const {
 }
 
 uint8_t ColumnReader::byte(Column column) {
-  Rest& rest = columns_[static_cast<size_t>(column)];
+  Rest& rest = columns_[size_t(column)];
   if (rest.at < rest.bytes.size()) return rest.bytes[rest.at++];
   damaged_ = true;
   return 0;

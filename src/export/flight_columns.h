@@ -39,7 +39,7 @@ class ColumnWriter {
   void pack(vector<char>& to);
 
  private:
-  vector<uint8_t>& of(Column column) { return columns_[static_cast<size_t>(column)]; }
+  vector<uint8_t>& of(Column column) { return columns_[size_t(column)]; }
   void bits(uint64_t value, unsigned count);
   uint32_t append(span<const uint8_t> bytes, vector<char>& to);
 

@@ -144,7 +144,7 @@ void FlightsFile::end_block(uint32_t kind, ColumnWriter& columns, uint32_t entri
   InPlace writer(packed_.data());
   writer.put(kind);
   writer.put(entries);
-  writer.put(static_cast<uint32_t>(packed_.size() - block_head));
+  writer.put(uint32_t(packed_.size() - block_head));
   writer.put(uint32_t{0});
   writer.put(time);
 
@@ -200,9 +200,9 @@ void FlightsFile::end(const Tally& tally) {
   }
 
   if (has_end) {
-    const RunEnd end = tally.end.value_or(RunEnd{std::numeric_limits<double>::quiet_NaN()});
+    const RunEnd end = tally.end.value_or(RunEnd{numeric_limits<double>::quiet_NaN()});
     writer.put(end.time);
-    writer.put(static_cast<uint32_t>(end.reason));
+    writer.put(uint32_t(end.reason));
     writer.put(end.region);
     writer.put(tally.removed.bodies);
     writer.put(tally.removed.energy);
@@ -226,7 +226,7 @@ Descriptor FlightsFile::reopened() {
 
 vector<LeftOut> FlightsFile::left_out() const {
   if (file_ && bytes_ <= most_) return {};
-  return {{flights_name, fmt::format("larger than {:.3g} GB", 1e-9 * static_cast<double>(most_))}};
+  return {{flights_name, fmt::format("larger than {:.3g} GB", 1e-9 * double(most_))}};
 }
 
 vector<OutputFile*> FlightsFile::files() {

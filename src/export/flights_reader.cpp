@@ -34,7 +34,7 @@ FlightsReader::FlightsReader(Descriptor file, const string& path, const Scene& s
     : path_(path), file_(std::move(file)), codec_(scene.world) {
   struct stat info {};
   if (!file_ || fstat(file_.get(), &info) != 0) refuse("it cannot be opened, or is not a file");
-  const auto size = static_cast<uint64_t>(info.st_size);
+  const auto size = uint64_t(info.st_size);
   take_header(size, scene);
   take_tail(size, scene);
   place_ = header_size;
@@ -69,7 +69,7 @@ void FlightsReader::take_tail(uint64_t size, const Scene& scene) {
   for (Entity* entity : {&tally_.shared.body, &tally_.shared.one, &tally_.shared.other}) {
     const auto number = take<uint64_t>();
     if (tally_.shared.instants > 0 && number >= scene.world.entity_count()) refuse("it is damaged");
-    *entity = static_cast<Entity>(number);
+    *entity = Entity(number);
   }
   for (double* value : values_of(tally_)) *value = take<double>();
 
@@ -95,7 +95,7 @@ void FlightsReader::take_end(uint64_t place, const Scene& scene) {
   for (int k = 0; k < 3; ++k) tally_.removed.momentum[k] = take<double>();
   if (std::isnan(time)) return;
   const auto by = static_cast<EndReason>(reason);
-  if (!(time >= 0 && time <= scene.simulate.duration) || reason > static_cast<uint32_t>(EndReason::region) ||
+  if (!(time >= 0 && time <= scene.simulate.duration) || reason > uint32_t(EndReason::region) ||
       (by == EndReason::region && region >= scene.world.regions.size()))
     refuse("it is damaged");
   tally_.end = RunEnd{time, by, region};
@@ -204,11 +204,11 @@ void FlightsReader::load(uint64_t place, size_t size) {
   buffer_.resize(size);
   at_ = 0;
   for (size_t have = 0; have < size;) {
-    const ssize_t n = pread(file_.get(), buffer_.data() + have, size - have, static_cast<off_t>(place + have));
+    const ssize_t n = pread(file_.get(), buffer_.data() + have, size - have, off_t(place + have));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", {-1, path_}, flights_name);
     if (n == 0) refuse("it is truncated");
-    have += static_cast<size_t>(n);
+    have += size_t(n);
   }
 }
 

@@ -56,20 +56,20 @@ constexpr double plots_s = 0.35;
 constexpr double table_byte_s = 1e-8;
 
 uint64_t whole(double x) {
-  return static_cast<uint64_t>(std::max<int64_t>(nearest_whole(x), 0));
+  return uint64_t(max<int64_t>(nearest_whole(x), 0));
 }
 
 double pixels(Size size) {
-  return static_cast<double>(size.width) * size.height;
+  return double(size.width) * size.height;
 }
 
 double png_bytes(double area, double bodies) {
-  return area * std::min(png_pixel_bytes + png_body_bytes * std::sqrt(bodies), png_most_bytes);
+  return area * min(png_pixel_bytes + png_body_bytes * std::sqrt(bodies), png_most_bytes);
 }
 
 /// Of one picture.
 double film_bytes(const VideoOutput& video, double area, double bodies) {
-  const double of_bodies = std::min(bodies * film_body_bytes * std::sqrt(area), area * film_most_bytes);
+  const double of_bodies = min(bodies * film_body_bytes * std::sqrt(area), area * film_most_bytes);
   const double at_18 = film_picture_bytes + area * film_pixel_bytes + of_bodies;
   const double by_crf = std::exp2((18 - video.crf) / 6.0);
   switch (film_format(video.file).value_or(FilmFormat::mp4)) {
@@ -88,10 +88,10 @@ double film_bytes(const VideoOutput& video, double area, double bodies) {
 Forecast forecast(const Scene& scene) {
   const Output& output = scene.output;
   const double bodies = scene.world.body_count(), duration = scene.simulate.duration;
-  double rows = 0, frames = 0, bytes = static_cast<double>(scene.resolved.size()) + 2000;
+  double rows = 0, frames = 0, bytes = double(scene.resolved.size()) + 2000;
 
   const auto instants = [&](const OutputKind& kind) {
-    return kind.is_sampled() ? static_cast<double>(Ticks::every(kind.every(output), duration).count()) : 0;
+    return kind.is_sampled() ? double(Ticks::every(kind.every(output), duration).count()) : 0;
   };
 
   for (const OutputKind& kind : output_kinds()) {
@@ -104,7 +104,7 @@ Forecast forecast(const Scene& scene) {
   double seconds = 0.005 + bytes * table_byte_s + (output.plots ? plots_s : 0);
   const PictureStreams plan = plan_pictures(scene);
   for (size_t i = 0; i < plan.streams.size(); ++i) {
-    const auto count = static_cast<double>(plan.ticks[i].count());
+    const auto count = double(plan.ticks[i].count());
     const double area = pixels(plan.streams[i].size);
     frames += count;
 

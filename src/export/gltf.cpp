@@ -17,7 +17,7 @@ void GltfWriter::add(double time, const State& state, span<const ContactForce>) 
 
   for (Entity body = 0; body < world.body_count(); ++body) {
     const Vec3& p = state.position[body];
-    motion_.position.push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
+    motion_.position.push_back({float(p.x()), float(p.y()), float(p.z())});
     motion_.extent.include(p, volume_now(world, state, body).half);
   }
 
@@ -45,7 +45,7 @@ double GltfWriter::bytes(const Scene& scene, double instants) {
   // Typical values. There is one mesh for each colour.
   constexpr double key_bytes = 12, body_bytes = 900, mesh_bytes = 40000;
   return scene.world.body_count() * (key_bytes * instants + body_bytes) +
-         mesh_bytes * static_cast<double>(scene.roster.bodies.size() + 1);
+         mesh_bytes * double(scene.roster.bodies.size() + 1);
 }
 
 }  // namespace carom

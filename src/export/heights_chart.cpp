@@ -29,7 +29,7 @@ void HeightsChart::add(double time, const State& state) {
   if (!wants(time)) return;
   vector<double> heights;
   for (Entity body = 0; body < state.position.size(); ++body)
-    heights.push_back(is_gone(state, body) ? std::numeric_limits<double>::quiet_NaN() : state.position[body].y());
+    heights.push_back(is_gone(state, body) ? numeric_limits<double>::quiet_NaN() : state.position[body].y());
   add(time, heights);
 }
 
@@ -45,7 +45,7 @@ void HeightsChart::add(double time, span<const double> heights) {
   std::copy_if(heights.begin(), heights.end(), std::back_inserter(heights_), [](double y) { return std::isfinite(y); });
   if (heights_.empty()) return;
 
-  const auto last = static_cast<double>(heights_.size() - 1);
+  const auto last = double(heights_.size() - 1);
   const auto quantile = [&](double share) {
     const auto at = heights_.begin() + std::lround(share * last);
     std::nth_element(heights_.begin(), at, heights_.end());
@@ -66,7 +66,7 @@ Plot HeightsChart::plot() const {
 
 void HeightsChart::add_lines(Plot& plot) const {
   for (size_t body = 0; body < lines_.size(); ++body)
-    plot.series.push_back(chart_line(scene_.roster.name(static_cast<Entity>(body)), body, lines_[body], instants_));
+    plot.series.push_back(chart_line(scene_.roster.name(Entity(body)), body, lines_[body], instants_));
 }
 
 void HeightsChart::add_spread(Plot& plot) const {

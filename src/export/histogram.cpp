@@ -13,14 +13,13 @@ uint64_t Histogram::total() const {
 }
 
 int intervals_for(uint64_t values) {
-  return static_cast<int>(std::ceil(2 * std::cbrt(static_cast<double>(values))));
+  return int(std::ceil(2 * std::cbrt(double(values))));
 }
 
 vector<PlotPoint> stairs(double width, const vector<double>& lower, const vector<double>& upper) {
   vector<PlotPoint> points;
   for (size_t i = 0; i < upper.size(); ++i)
-    for (const size_t edge : {i, i + 1})
-      points.push_back({static_cast<double>(edge) * width, upper[i], "", lower[i], upper[i]});
+    for (const size_t edge : {i, i + 1}) points.push_back({double(edge) * width, upper[i], "", lower[i], upper[i]});
   return points;
 }
 

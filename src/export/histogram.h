@@ -10,7 +10,7 @@ struct Histogram {
   double width = 1;         // of an interval
   vector<uint64_t> counts;  // interval i is from i width to (i + 1) width
   uint64_t total() const;
-  double end() const { return width * static_cast<double>(counts.size()); }
+  double end() const { return width * double(counts.size()); }
 };
 
 /// The number of intervals for so many values: 2 n^(1/3), the rule of Rice University.

@@ -63,7 +63,7 @@ uint32_t traits_of(const PathPiece& piece) {
   return (piece.kicked ? is_kicked : 0u) | (piece.curve ? is_curve : 0u) |
          (piece.curve && piece.curve->is_parabola ? is_parabola : 0u) | (piece.part_of != no_entity ? is_part : 0u) |
          (piece.joint ? is_joint : 0u) | (piece.removed ? is_removed : 0u) | (piece.fade != 0 ? is_fading : 0u) |
-         static_cast<uint32_t>(piece.law) * first_law;
+         uint32_t(piece.law) * first_law;
 }
 
 bool same_bits(double a, double b) {
@@ -137,19 +137,19 @@ bool find_base(double usual, double v, double time, double kick, double& base) {
 }
 
 uint64_t fold(int64_t x) {
-  return static_cast<uint64_t>(x) << 1 ^ static_cast<uint64_t>(x >> 63);
+  return uint64_t(x) << 1 ^ uint64_t(x >> 63);
 }
 int64_t unfold(uint64_t x) {
-  return static_cast<int64_t>(x >> 1 ^ (0 - (x & 1)));
+  return int64_t(x >> 1 ^ (0 - (x & 1)));
 }
 
 /// What is read may be any number.
 int64_t sum(int64_t a, int64_t b) {
-  return static_cast<int64_t>(static_cast<uint64_t>(a) + static_cast<uint64_t>(b));
+  return int64_t(uint64_t(a) + uint64_t(b));
 }
 
 int64_t number_of(Entity e) {
-  return static_cast<int64_t>(e);
+  return int64_t(e);
 }
 
 }  // namespace
@@ -212,11 +212,11 @@ struct PathCodec::Side {
   void entity(Column column, Entity predicted, Entity& actual, size_t bodies) {
     int64_t number_read = number_of(actual);
     number(column, number_of(predicted), number_read);
-    if (number_read < 0 || number_read >= static_cast<int64_t>(bodies)) {
+    if (number_read < 0 || number_read >= int64_t(bodies)) {
       damaged = true;
       number_read = 0;
     }
-    actual = static_cast<Entity>(number_read);
+    actual = Entity(number_read);
   }
 };
 
@@ -247,7 +247,7 @@ void PathCodec::write(ColumnWriter& to, const PathPiece& piece, const PathPiece*
 
 void PathCodec::write(ColumnWriter& to, const CollisionMark& collision) {
   to.number(Column::body, 0);
-  to.byte(Column::shape, static_cast<uint8_t>(collision.kind));
+  to.byte(Column::shape, uint8_t(collision.kind));
   to.number(Column::other, fold(number_of(collision.a) - number_of(collision_.a)));
   to.number(Column::other, fold(number_of(collision.b) - number_of(collision_.b)));
   to.difference(Column::time, collision_.time, collision.time);
@@ -271,9 +271,9 @@ bool PathCodec::read(ColumnReader& from, Recorded& recorded) {
 
   recorded.kind = Recorded::Kind::piece;
   const int64_t body = sum(number_of(body_ + 1), unfold(which - 1));
-  if (body < 0 || body >= static_cast<int64_t>(present_.size())) return false;
+  if (body < 0 || body >= int64_t(present_.size())) return false;
   recorded.piece = {};
-  recorded.piece.body = static_cast<Entity>(body);
+  recorded.piece.body = Entity(body);
   PredictedImpact impact;
   code(side, recorded.piece, impact);
   present_[recorded.piece.body] = recorded.piece;
@@ -329,7 +329,7 @@ void PathCodec::code(Side<Columns>& side, PathPiece& piece, PredictedImpact& imp
 /// The first double at which a piece holds: that of its start, but none before the entry before.
 double PathCodec::usual_from(const PathPiece& piece) const {
   const double hi = piece.start.hi;
-  return std::max(piece.start.lo > 0 ? std::nextafter(hi, std::numeric_limits<double>::infinity()) : hi, from_);
+  return max(piece.start.lo > 0 ? std::nextafter(hi, numeric_limits<double>::infinity()) : hi, from_);
 }
 
 /// A body's mass and radius, with its first piece. Most often they are those of the body before.
@@ -491,7 +491,7 @@ void PathCodec::code_curve(Side<Columns>& side, PathPiece& piece, PolynomialPath
     if (k > 1 && before) term = (power *= ratio) * before->displacement[k];
     side.value(Column::curve, term, curve.displacement[k]);
   }
-  if constexpr (!Columns::writes) piece.curve = std::make_shared<PolynomialPath>(curve);
+  if constexpr (!Columns::writes) piece.curve = make_shared<PolynomialPath>(curve);
 }
 
 /// When two balls meet that move as these pieces do (s, from `since` on).

@@ -14,7 +14,7 @@ namespace carom {
 namespace {
 
 double end_of(const optional<double>& until, double duration) {
-  return std::min(until.value_or(duration), duration);
+  return min(until.value_or(duration), duration);
 }
 
 Ticks ticks_of(const FramesOutput& frames, double duration) {
@@ -31,7 +31,7 @@ Ticks ticks_of(const SheetOutput& sheet, double duration) {
 
 void add(PictureStreams& plan, Size size, const PictureOutput& model, double speed, const Ticks& ticks,
          const PictureUse& use) {
-  const int number = static_cast<int>(plan.streams.size());
+  const int number = int(plan.streams.size());
   plan.streams.push_back({size, model.samples, number, speed / model.fps, speed, ticks.decimals()});
   plan.uses.push_back(use);
   plan.ticks.push_back(ticks);

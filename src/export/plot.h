@@ -11,7 +11,7 @@ struct PlotPoint {
   /// Beside the point. Empty: none.
   string label{};
   // The ends of a bar through the point, or of a band. NaN: no bar.
-  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
+  double low = numeric_limits<double>::quiet_NaN(), high = low;
 
   void keep(auto& archive) { archive(x, y, label, low, high); }
 };
@@ -60,7 +60,7 @@ struct Plot {
   double floor = 0;
   PlotScale scale = PlotScale::logarithmic;  // of both axes
   /// The x axis of a linear plot includes these. NaN: the points alone determine it.
-  double x_from = std::numeric_limits<double>::quiet_NaN(), x_to = x_from;
+  double x_from = numeric_limits<double>::quiet_NaN(), x_to = x_from;
   /// The y axis of a linear plot begins at 0, for values that are not negative.
   bool from_zero = false;
   /// The y axis of a linear plot counts: its ticks are whole numbers.

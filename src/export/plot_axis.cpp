@@ -23,20 +23,20 @@ constexpr int most_x_ticks = 7, most_y_ticks = 6;
 
 /// The least and the greatest of the values taken.
 struct ValueRange {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  double low = numeric_limits<double>::infinity(), high = -low;
   void take(double value) {
     if (!std::isfinite(value)) return;
-    low = std::min(low, value);
-    high = std::max(high, value);
+    low = min(low, value);
+    high = max(high, value);
   }
 };
 
 /// The text of count * 10^power.
 string decimal_text(int64_t count, int power) {
   if (count == 0) return "0";
-  if (power >= 0) return fmt::format("{}", count * static_cast<int64_t>(std::pow(10, power)));
+  if (power >= 0) return fmt::format("{}", count * int64_t(std::pow(10, power)));
   const string digits = fmt::format("{:0{}}", std::abs(count), 1 - power);
-  const size_t point = digits.size() - static_cast<size_t>(-power);
+  const size_t point = digits.size() - size_t(-power);
   return (count < 0 ? "-" : "") + digits.substr(0, point) + "." + digits.substr(point);
 }
 
@@ -49,8 +49,8 @@ string superscript(int exponent) {
 
 /// A multiple of 3, so that ticks have few digits. 0 from a hundredth to a hundred thousand.
 int exponent_of(double largest) {
-  const int power = static_cast<int>(std::floor(std::log10(largest)));
-  return power >= -2 && power < 5 ? 0 : 3 * static_cast<int>(std::floor(power / 3.0));
+  const int power = int(std::floor(std::log10(largest)));
+  return power >= -2 && power < 5 ? 0 : 3 * int(std::floor(power / 3.0));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ double RoundStep::value() const {
 }
 
 RoundStep round_step(double least) {
-  RoundStep step{1, static_cast<int>(std::floor(std::log10(least)))};
+  RoundStep step{1, int(std::floor(std::log10(least)))};
   for (const int digit : {1, 2, 5}) {
     step.digit = digit;
     if (step.value() >= least) return step;
@@ -93,7 +93,7 @@ string PlotAxis::label(const string& what, const string& unit) const {
 size_t PlotAxis::tick_letters() const {
   if (logarithmic) return 4;
   size_t most = 0;
-  for (const PlotTick& tick : ticks) most = std::max(most, letters_of(tick.text));
+  for (const PlotTick& tick : ticks) most = max(most, letters_of(tick.text));
   return most;
 }
 
@@ -109,12 +109,12 @@ PlotAxis linear_axis(double low, double high, int most_ticks, double least_step)
   // Beyond these a power of ten has no double.
   constexpr double most = 1e290, least = 1e-290;
   if (!(low <= high)) low = high = 0;
-  low = std::clamp(low, -most, most);
-  high = std::clamp(high, -most, most);
-  if (std::max(std::abs(low), std::abs(high)) < least) low = high = 0;
+  low = clamp(low, -most, most);
+  high = clamp(high, -most, most);
+  if (max(std::abs(low), std::abs(high)) < least) low = high = 0;
 
   // Move equal ends apart.
-  const double largest = std::max(std::abs(low), std::abs(high));
+  const double largest = max(std::abs(low), std::abs(high));
   if (high - low <= rounding_share * largest) {
     const double apart = largest == 0 ? 1 : largest / 10;
     low -= apart;
@@ -122,12 +122,12 @@ PlotAxis linear_axis(double low, double high, int most_ticks, double least_step)
   }
 
   PlotAxis axis{low, high};
-  axis.exponent = exponent_of(std::max(std::abs(low), std::abs(high)));
-  const RoundStep step = round_step(std::max((high - low) / most_ticks, least_step));
+  axis.exponent = exponent_of(max(std::abs(low), std::abs(high)));
+  const RoundStep step = round_step(max((high - low) / most_ticks, least_step));
   const double slack = (high - low) * 1e-9;
 
-  for (auto count = static_cast<int64_t>(std::ceil((low - slack) / step.value()));; ++count) {
-    const double at = static_cast<double>(count) * step.value();
+  for (auto count = int64_t(std::ceil((low - slack) / step.value()));; ++count) {
+    const double at = double(count) * step.value();
     if (!(at <= high + slack)) break;
     axis.ticks.push_back({at, decimal_text(count * step.digit, step.power - axis.exponent)});
   }

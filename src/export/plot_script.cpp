@@ -38,7 +38,7 @@ constexpr array<PlotStyle, plot_styles> styles = {{{{0xD5, 0x5E, 0x00}, 13},
 string color_of(const PlotSeries& series) {
   string text = "'#";
   for (const int part : styles.at(series.style).color)
-    text += fmt::format("{:02X}", static_cast<int>(std::lround(part + (255 - part) * series.tint)));
+    text += fmt::format("{:02X}", int(std::lround(part + (255 - part) * series.tint)));
   return text + "'";
 }
 
@@ -67,12 +67,11 @@ PlotFrame frame_of(const Plot& plot, const PlotAxes& axes) {
   // In pixels of the SVG. A letter of 13 points is 8 wide on average.
   constexpr double letter = 8, label = 20, gap = 26, sample = 62;
   size_t names = 0;
-  for (const PlotSeries& series : plot.series) names = std::max(names, letters_of(series.name));
-  for (const PlotLevel& level : plot.levels) names = std::max(names, letters_of(level.name));
+  for (const PlotSeries& series : plot.series) names = max(names, letters_of(series.name));
+  for (const PlotLevel& level : plot.levels) names = max(names, letters_of(level.name));
   constexpr double width = plot_width;
-  const double right = 1 - (sample + letter * static_cast<double>(names)) / width;
-  return {(label + gap + letter * static_cast<double>(axes.y.tick_letters())) / width, right, right + 12 / width,
-          label / width};
+  const double right = 1 - (sample + letter * double(names)) / width;
+  return {(label + gap + letter * double(axes.y.tick_letters())) / width, right, right + 12 / width, label / width};
 }
 
 /// Leaves out a label that would cover another one. Distances are in shares of the picture's width and height.
@@ -145,7 +144,7 @@ class PlotLayers {
       // A bar that the mark would cover is left out.
       if (point.high > shortest_bar * plot_.height(point.low))
         bars += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", point.x, plot_.height(point.y),
-                            std::max(point.low, axes_.y.from), point.high);
+                            max(point.low, axes_.y.from), point.high);
     if (bars.empty()) return;
     put("bars", s, bars);
     layers_.push_back(

@@ -15,7 +15,7 @@ namespace {
 constexpr uint8_t filter_sub = 1;
 
 void put_number(string& file, uint32_t number) {
-  for (const unsigned shift : {24U, 16U, 8U, 0U}) file += static_cast<char>(number >> shift & 255);
+  for (const unsigned shift : {24U, 16U, 8U, 0U}) file += char(number >> shift & 255);
 }
 
 /// A chunk: the length of its data, its type, the data that `put_data` appends, and the checksum of both.
@@ -27,7 +27,7 @@ void put_chunk(string& file, string_view type, const Data& put_data) {
   put_data();
   const size_t length = file.size() - begin - 8;
   string number;
-  put_number(number, static_cast<uint32_t>(length));
+  put_number(number, uint32_t(length));
   file.replace(begin, number.size(), number);
   put_number(file, crc32_gzip_refl(0, reinterpret_cast<const uint8_t*>(file.data()) + begin + 4, length + 4));
 }
@@ -39,8 +39,8 @@ void filter_row(const uint8_t* row, size_t size, size_t pixel, uint8_t* __restri
   const uint8_t* left = row;
   row += pixel;
   for (size -= pixel; size >= block; size -= block, row += block, left += block, to += block)
-    for (size_t i = 0; i < block; ++i) to[i] = static_cast<uint8_t>(row[i] - left[i]);
-  for (size_t i = 0; i < size; ++i) to[i] = static_cast<uint8_t>(row[i] - left[i]);
+    for (size_t i = 0; i < block; ++i) to[i] = uint8_t(row[i] - left[i]);
+  for (size_t i = 0; i < size; ++i) to[i] = uint8_t(row[i] - left[i]);
 }
 
 }  // namespace
@@ -51,11 +51,11 @@ void PngEncoder::take(const Image& image) {
   height_ = image.height;
   channels_ = image.channels;
   const size_t size = image.row_size();
-  rows_.resize((size + 1) * static_cast<size_t>(height_));
+  rows_.resize((size + 1) * size_t(height_));
   uint8_t* to = rows_.data();
   for (int y = 0; y < height_; ++y, to += size) {
     *to++ = filter_sub;
-    filter_row(image.row(y), size, static_cast<size_t>(channels_), to);
+    filter_row(image.row(y), size, size_t(channels_), to);
   }
 }
 
@@ -74,8 +74,8 @@ size_t PngEncoder::compress() {
 const string& PngEncoder::encode() {
   file_ = "\x89PNG\r\n\x1a\n";
   put_chunk(file_, "IHDR", [&] {
-    put_number(file_, static_cast<uint32_t>(width_));
-    put_number(file_, static_cast<uint32_t>(height_));
+    put_number(file_, uint32_t(width_));
+    put_number(file_, uint32_t(height_));
     file_ += '\x08';                            // bits a channel
     file_ += channels_ == 4 ? '\x06' : '\x02';  // RGBA, RGB
     file_ += string_view("\0\0\0", 3);          // deflate, the five filters, rows in order

@@ -35,12 +35,12 @@ struct Grid {
 };
 
 int even(double pixels) {
-  return std::max(2, 2 * static_cast<int>(pixels / 2));
+  return max(2, 2 * int(pixels / 2));
 }
 
 size_t most_lines(const vector<FilmTile>& tiles) {
   size_t lines = 1;
-  for (const FilmTile& tile : tiles) lines = std::max(lines, tile.labels.size());
+  for (const FilmTile& tile : tiles) lines = max(lines, tile.labels.size());
   return lines;
 }
 
@@ -48,24 +48,24 @@ size_t most_lines(const vector<FilmTile>& tiles) {
 int letter_of(const vector<FilmTile>& tiles, int width, int height) {
   size_t longest = 1;
   for (const FilmTile& tile : tiles)
-    for (const string& line : tile.labels) longest = std::max(longest, line.size());
-  const double by_width = (width - 16) / (0.62 * static_cast<double>(longest));
-  return std::max(least_label, static_cast<int>(std::min(by_width, height * label_height)));
+    for (const string& line : tile.labels) longest = max(longest, line.size());
+  const double by_width = (width - 16) / (0.62 * double(longest));
+  return max(least_label, int(min(by_width, height * label_height)));
 }
 
 Grid grid_of(const vector<FilmTile>& tiles, const vector<FilmFacts>& films) {
   int columns = 1;
-  while (static_cast<size_t>(columns * columns) < films.size()) ++columns;
-  const int rows = (static_cast<int>(films.size()) + columns - 1) / columns;
+  while (size_t(columns * columns) < films.size()) ++columns;
+  const int rows = (int(films.size()) + columns - 1) / columns;
   int width = 0, height = 0;
   for (const FilmFacts& film : films) {
-    width = std::max(width, film.width);
-    height = std::max(height, film.height);
+    width = max(width, film.width);
+    height = max(height, film.height);
   }
   // A strip has its lines and half a letter above and below them.
-  const double letters = line_height * static_cast<double>(most_lines(tiles)) + 1;
+  const double letters = line_height * double(most_lines(tiles)) + 1;
   const double whole_height = height * (1 + letters * label_height);
-  const double scale = std::min({1.0, widest / static_cast<double>(width * columns), highest / (whole_height * rows)});
+  const double scale = min({1.0, widest / double(width * columns), highest / (whole_height * rows)});
   Grid grid{columns, rows, even(width * scale), even(height * scale), 0, 0};
   grid.letter = letter_of(tiles, grid.width, grid.height);
   grid.strip = even(letters * grid.letter);
@@ -78,7 +78,7 @@ bool is_faster(const FilmFacts& a, const FilmFacts& b) {
 }
 
 double rate_of(const FilmFacts& film) {
-  return static_cast<double>(film.rate) / static_cast<double>(film.per);
+  return double(film.rate) / double(film.per);
 }
 
 /// The number of frames before a tile's first one, and of the tile, at the frame rate of the whole film.
@@ -88,9 +88,9 @@ struct Span {
 
 Span span_of(const FilmTile& tile, const FilmFacts& film, const FilmFacts& fastest, double start) {
   const double rate = rate_of(fastest);
-  const double frames = static_cast<double>(film.frames) * rate / rate_of(film);
-  return {static_cast<uint64_t>(std::max<int64_t>(0, nearest_whole((tile.from - start) / tile.speed * rate))),
-          static_cast<uint64_t>(std::max<int64_t>(1, nearest_whole(frames)))};
+  const double frames = double(film.frames) * rate / rate_of(film);
+  return {uint64_t(max<int64_t>(0, nearest_whole((tile.from - start) / tile.speed * rate))),
+          uint64_t(max<int64_t>(1, nearest_whole(frames)))};
 }
 
 void write_label(const FilePlace& place, const string& name, const FilmTile& tile) {
@@ -130,7 +130,7 @@ void SideBySide::complete() {
   const FilmFacts& fastest =
       *std::ranges::max_element(facts_, [](const auto& a, const auto& b) { return is_faster(b, a); });
   double start = tiles_.front().from;
-  for (const FilmTile& tile : tiles_) start = std::min(start, tile.from);
+  for (const FilmTile& tile : tiles_) start = min(start, tile.from);
   if (!copy_font(font_, file_.workshop())) file_.fail_with("the font of its labels cannot be read: " + font_);
 
   vector<string> input;
@@ -139,7 +139,7 @@ void SideBySide::complete() {
   vector<Span> spans;
   for (size_t k = 0; k < tiles_.size(); ++k) {
     spans.push_back(span_of(tiles_[k], facts_[k], fastest, start));
-    frames = std::max(frames, spans.back().before + spans.back().frames);
+    frames = max(frames, spans.back().before + spans.back().frames);
   }
 
   for (size_t k = 0; k < tiles_.size(); ++k) {
@@ -169,7 +169,7 @@ void SideBySide::complete() {
         ",drawtext=fontfile={}:textfile={}:expansion=none:fontsize={}:fontcolor=white:line_spacing={}:x={}:y={}[t{}];",
         font_file, label, grid.letter, grid.letter / 4, grid.letter / 2 + 2, grid.letter / 2, k);
     stacked += fmt::format("[t{}]", k);
-    const int row = static_cast<int>(k) / grid.columns, column = static_cast<int>(k) % grid.columns;
+    const int row = int(k) / grid.columns, column = int(k) % grid.columns;
     layout += fmt::format("{}{}_{}", k > 0 ? "|" : "", column * grid.width, row * (grid.height + grid.strip));
   }
 

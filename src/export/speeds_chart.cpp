@@ -40,10 +40,9 @@ Histogram SpeedsChart::histogram() const {
   const double fastest = speeds_.empty() ? 0 : *std::ranges::max_element(speeds_);
   // A round width, from 0.7 to 1.8 times the one sought.
   if (fastest > 0)
-    bars.width = round_step(fastest / std::min(intervals_for(speeds_.size()), most_bars) / std::sqrt(2)).value();
-  bars.counts.resize(static_cast<size_t>(fastest / bars.width) + 1);
-  for (const double speed : speeds_)
-    ++bars.counts[std::min(static_cast<size_t>(speed / bars.width), bars.counts.size() - 1)];
+    bars.width = round_step(fastest / min(intervals_for(speeds_.size()), most_bars) / std::sqrt(2)).value();
+  bars.counts.resize(size_t(fastest / bars.width) + 1);
+  for (const double speed : speeds_) ++bars.counts[min(size_t(speed / bars.width), bars.counts.size() - 1)];
   return bars;
 }
 
@@ -53,10 +52,10 @@ bool SpeedsChart::has_maxwell() const {
 
 double SpeedsChart::maxwell(double speed, double width) const {
   const int dimensions = energy_.dimensions();
-  const double thermal = 2 * energy_.kinetic() / (dimensions * static_cast<double>(speeds_.size()));
+  const double thermal = 2 * energy_.kinetic() / (dimensions * double(speeds_.size()));
   double bodies = 0;
   for (const auto& [mass, count] : masses_)
-    bodies += static_cast<double>(count) * width * maxwell_density(speed, dimensions, std::sqrt(thermal / mass));
+    bodies += double(count) * width * maxwell_density(speed, dimensions, std::sqrt(thermal / mass));
   return bodies;
 }
 
@@ -67,7 +66,7 @@ PlotSeries SpeedsChart::maxwell_curve(const Histogram& bars) const {
   for (int i = 0; i <= 4 * curve_points; ++i) {
     const double speed = i * step, bodies = maxwell(speed, bars.width);
     if (i > curve_points && bodies < end_of_curve * peak) break;
-    peak = std::max(peak, bodies);
+    peak = max(peak, bodies);
     curve.points.push_back({speed, bodies});
   }
   return curve;

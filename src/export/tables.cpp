@@ -104,14 +104,14 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
 }
 
 void TrajectoryTable::add(double time, const State& state, span<const ContactForce>) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  constexpr double none = numeric_limits<double>::quiet_NaN();
   const Entity bodies = scene_.world.body_count();
 
   Entity first = 0;
   do {
     Block& block = blocks_.item();
-    const auto room = static_cast<Entity>(block_rows - block.motions.size());
-    const Part part{time, first, std::min(room, bodies - first)};
+    const auto room = Entity(block_rows - block.motions.size());
+    const Part part{time, first, min(room, bodies - first)};
     block.parts.push_back(part);
 
     // Of a body that is gone there is no row.
@@ -148,7 +148,7 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   if (part.count == 0) return;
   // All bodies share the digits of the time, which are formatted once and copied.
   char time_text[number_size];
-  const string_view time_cell(time_text, static_cast<size_t>(put_number(time_text, part.time) - time_text));
+  const string_view time_cell(time_text, size_t(put_number(time_text, part.time) - time_text));
 
   const BodyRange* range = &scene_.roster.range_of(part.first);
   for (Entity body = part.first; body < part.first + part.count; ++body, ++motion) {
@@ -189,8 +189,8 @@ CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)
 void CollisionTable::record(span<const Collision> collisions) {
   while (!collisions.empty()) {
     vector<Collision>& block = blocks_.item();
-    const size_t count = std::min(block_rows - block.size(), collisions.size());
-    block.insert(block.end(), collisions.begin(), collisions.begin() + static_cast<ptrdiff_t>(count));
+    const size_t count = min(block_rows - block.size(), collisions.size());
+    block.insert(block.end(), collisions.begin(), collisions.begin() + ptrdiff_t(count));
     collisions = collisions.subspan(count);
     if (block.size() == block_rows) blocks_.send();
   }

@@ -10,7 +10,7 @@ namespace carom {
 int interval_of(double x, double from, double to, int count) {
   const double share = (x - from) / (to - from);
   if (!(share > 0)) return 0;
-  return share >= 1 ? count - 1 : std::min(static_cast<int>(share * count), count - 1);
+  return share >= 1 ? count - 1 : min(int(share * count), count - 1);
 }
 
 void ThinnedLine::add(double x, double y) {

@@ -20,7 +20,7 @@ constexpr int64_t most_ticks = int64_t{1} << 53;
 
 /// The whole number below `x`, limited to what can be counted.
 int64_t tick_number(double x) {
-  return std::clamp<int64_t>(whole_below(x), 0, most_ticks);
+  return clamp<int64_t>(whole_below(x), 0, most_ticks);
 }
 
 struct Ratio {
@@ -58,14 +58,14 @@ optional<Ratio> as_decimal(double value) {
 
   double power = 1;
   for (int i = exponent; i < 0; ++i) power *= 10;
-  const Ratio ratio{static_cast<double>(digits), power};
+  const Ratio ratio{double(digits), power};
   return ratio.numerator / ratio.denominator == value ? optional(ratio) : nullopt;
 }
 
 Ratio as_ratio(double interval) {
   if (const auto decimal = as_decimal(interval)) return *decimal;
   const double n = std::round(1 / interval);
-  if (n < static_cast<double>(most_ticks) && 1 / n == interval) return {1, n};
+  if (n < double(most_ticks) && 1 / n == interval) return {1, n};
   return {interval, 1};
 }
 
@@ -79,14 +79,14 @@ Ticks Ticks::every(double interval, double duration) {
   ticks.numerator_ = ratio.numerator;
   ticks.denominator_ = ratio.denominator;
   // A tick that differs from the end only by rounding is the end itself.
-  const double rounding = std::max(1e-9 * interval, 2 * std::numeric_limits<double>::epsilon() * duration);
-  const double limit = duration - std::min(rounding, interval / 2);
+  const double rounding = max(1e-9 * interval, 2 * numeric_limits<double>::epsilon() * duration);
+  const double limit = duration - min(rounding, interval / 2);
   // The number of ticks below the limit, except for rounding.
   int64_t below = tick_number(duration / interval);
   for (int i = 0; i < 3 && below > 0 && ticks.at(below - 1) >= limit; ++i) --below;
   for (int i = 0; i < 3 && below < most_ticks && ticks.at(below) < limit; ++i) ++below;
   // A start is never rounded away.
-  ticks.last_ = duration > 0 ? std::max<int64_t>(below, 1) : 0;
+  ticks.last_ = duration > 0 ? max<int64_t>(below, 1) : 0;
   ticks.end_ = duration;
   ticks.closes_ = true;
   return ticks;
@@ -102,7 +102,7 @@ Ticks Ticks::rate(double per_second, double from, double until) {
   for (int i = 0; i < 3 && first > 0 && ticks.at(first - 1) >= from; ++i) --first;
   for (int i = 0; i < 3 && first < most_ticks && ticks.at(first) < from; ++i) ++first;
   ticks.first_ = first;
-  ticks.last_ = std::max(until >= 0 ? ticks.last_until(until, until * per_second) : -1, first - 1);
+  ticks.last_ = max(until >= 0 ? ticks.last_until(until, until * per_second) : -1, first - 1);
   return ticks;
 }
 
@@ -129,7 +129,7 @@ int64_t Ticks::last_until(double until, double guess) const {
 Ticks Ticks::even(int64_t count, double from, double until) {
   Ticks ticks;
   if (count <= 0) return ticks;
-  const auto steps = static_cast<double>(std::max<int64_t>(count - 1, 1));
+  const auto steps = double(max<int64_t>(count - 1, 1));
   ticks.last_ = count - 1;
   ticks.offset_ = from * steps;
   ticks.numerator_ = until - from;
@@ -140,14 +140,14 @@ Ticks Ticks::even(int64_t count, double from, double until) {
 
 double Ticks::at(int64_t i) const {
   // The products are exact for every run of practical length. The division then rounds once.
-  return end_ && i == last_ ? *end_ : (offset_ + static_cast<double>(i) * numerator_) / denominator_;
+  return end_ && i == last_ ? *end_ : (offset_ + double(i) * numerator_) / denominator_;
 }
 
 void Ticks::cut(double end) {
   if (last_ < first_ || at(last_) <= end) return;
   end_.reset();
   last_ = numerator_ > 0 ? last_until(end, (end * denominator_ - offset_) / numerator_) : -1;
-  last_ = std::max(last_, first_ - 1);
+  last_ = max(last_, first_ - 1);
   if (!closes_) return;
   if (last_ < first_ || at(last_) < end) ++last_;
   end_ = end;
@@ -167,14 +167,14 @@ int Ticks::decimals() const {
   for (int i = 0; i <= most; ++i, power *= 10)
     if (is_whole(at(first_) * power) && is_whole(at(last_) * power) && (count() < 2 || is_whole(interval * power)))
       return i;
-  return count() < 2 ? most : std::clamp(1 - static_cast<int>(std::floor(std::log10(interval))), 0, 17);
+  return count() < 2 ? most : clamp(1 - int(std::floor(std::log10(interval))), 0, 17);
 }
 
 Timeline::Timeline(double duration) : duration_(duration) {}
 
 int Timeline::add(const Ticks& ticks) {
   streams_.push_back({ticks, ticks.first(), false});
-  return static_cast<int>(streams_.size()) - 1;
+  return int(streams_.size()) - 1;
 }
 
 bool Timeline::advance() {
@@ -191,7 +191,7 @@ bool Timeline::advance() {
 void Timeline::find_due() {
   double next = duration_;
   for (const Stream& stream : streams_)
-    if (stream.next <= stream.ticks.last()) next = std::min(next, stream.ticks.at(stream.next));
+    if (stream.next <= stream.ticks.last()) next = min(next, stream.ticks.at(stream.next));
   time_ = next;
   for (Stream& stream : streams_)
     stream.due = stream.next <= stream.ticks.last() && stream.ticks.at(stream.next) == next;
@@ -205,16 +205,16 @@ void Timeline::end_at(double time) {
 }
 
 optional<int64_t> Timeline::due(int stream) const {
-  const Stream& s = streams_.at(static_cast<size_t>(stream));
+  const Stream& s = streams_.at(size_t(stream));
   return s.due ? optional(s.next) : nullopt;
 }
 
 bool Timeline::is_empty(int stream) const {
-  return streams_.at(static_cast<size_t>(stream)).ticks.count() < 1;
+  return streams_.at(size_t(stream)).ticks.count() < 1;
 }
 
 optional<double> Timeline::next(int stream) const {
-  const Stream& s = streams_.at(static_cast<size_t>(stream));
+  const Stream& s = streams_.at(size_t(stream));
   return s.next <= s.ticks.last() ? optional(s.ticks.at(s.next)) : nullopt;
 }
 

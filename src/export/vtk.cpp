@@ -35,7 +35,7 @@ class Bytes {
     for (int axis = 0; axis < 3; ++axis) add(v[axis] == 0 ? 0.0 : v[axis]);
   }
   void add(const Color& color) {
-    for (const double part : {color.r, color.g, color.b}) add(static_cast<uint8_t>(std::lround(part * 255)));
+    for (const double part : {color.r, color.g, color.b}) add(uint8_t(std::lround(part * 255)));
   }
   void add_text(string_view text) {
     bytes_ += text;
@@ -68,7 +68,7 @@ string begin(string_view type) {
 string poly_data(const string& field, size_t points, const string& point_data, const string& coordinates,
                  string_view cells, size_t cell_count, int corners, Bytes& connectivity, const string& cell_data) {
   Bytes offsets;
-  for (size_t i = 1; i <= cell_count; ++i) offsets.add(static_cast<int32_t>(i * static_cast<size_t>(corners)));
+  for (size_t i = 1; i <= cell_count; ++i) offsets.add(int32_t(i * size_t(corners)));
   return begin("PolyData") + "<PolyData>\n" + field +
          fmt::format("<Piece NumberOfPoints=\"{}\" NumberOf{}=\"{}\">\n", points, cells, cell_count) + point_data +
          "<Points>\n" + coordinates + "</Points>\n" + fmt::format("<{}>\n", cells) +
@@ -91,12 +91,12 @@ string bodies_text(const Scene& scene, double time, const State& state, bool sol
       velocity.add(state.velocity[body]);
       radius.add(volume.reach());
       mass.add(mass_now(world, state, body));
-      id.add(static_cast<int32_t>(body));
+      id.add(int32_t(body));
       color.add(range.color);
       name.add_text(range.group ? fmt::format("{}.{}", range.name, body - range.first) : range.name);
 
       if (solids) {
-        shape.add(static_cast<uint8_t>(volume.shape));
+        shape.add(uint8_t(volume.shape));
         size.add(Vec3(2 * volume.half));
       }
       vertices.add(points++);
@@ -113,8 +113,8 @@ string bodies_text(const Scene& scene, double time, const State& state, bool sol
   const string field =
       "<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"binary\">" +
       instant.base64() + "</DataArray>\n</FieldData>\n";
-  return poly_data(field, static_cast<size_t>(points), data, data_array("Float64", "position", 3, position), "Verts",
-                   static_cast<size_t>(points), 1, vertices, "");
+  return poly_data(field, size_t(points), data, data_array("Float64", "position", 3, position), "Verts", size_t(points),
+                   1, vertices, "");
 }
 
 string surfaces_text(const vector<StillThing>& things) {
@@ -125,7 +125,7 @@ string surfaces_text(const vector<StillThing>& things) {
   for (const StillThing& thing : things) {
     for (const Vec3& vertex : thing.mesh.vertices) position.add(vertex);
     for (const Vec3& n : thing.mesh.normals) normal.add(n);
-    for (const uint32_t corner : thing.mesh.triangles) corners.add(points + static_cast<int32_t>(corner));
+    for (const uint32_t corner : thing.mesh.triangles) corners.add(points + int32_t(corner));
 
     // Cells have values of their own.
     for (size_t i = 0; i < thing.mesh.triangles.size(); i += 3) {
@@ -135,11 +135,11 @@ string surfaces_text(const vector<StillThing>& things) {
       ++triangles;
     }
 
-    points += static_cast<int32_t>(thing.mesh.vertices.size());
+    points += int32_t(thing.mesh.vertices.size());
     ++number_of_thing;
   }
 
-  return poly_data("", static_cast<size_t>(points),
+  return poly_data("", size_t(points),
                    "<PointData Normals=\"normal\">\n" + data_array("Float64", "normal", 3, normal) + "</PointData>\n",
                    data_array("Float64", "position", 3, position), "Polys", triangles, 3, corners,
                    "<CellData>\n" + data_array("Int32", "id", 1, id) + data_array("UInt8", "color", 3, color) +

@@ -16,8 +16,8 @@ constexpr uint64_t container_head = 12, chunk_head = 8, duration_at = 12;  // by
 /// The bytes at a place, fewer at the end of the file.
 template <size_t size>
 string_view bytes_at(int file, uint64_t place, array<char, size>& bytes) {
-  const ssize_t got = pread(file, bytes.data(), size, static_cast<off_t>(place));
-  return {bytes.data(), static_cast<size_t>(got > 0 ? got : 0)};
+  const ssize_t got = pread(file, bytes.data(), size, off_t(place));
+  return {bytes.data(), size_t(got > 0 ? got : 0)};
 }
 
 /// The least significant byte first.
@@ -57,7 +57,7 @@ optional<uint64_t> webp_frames(const FilePlace& place, const string& name, doubl
   }
 
   if (animated == 0) return still == 1 ? nullopt : optional<uint64_t>(0);
-  return static_cast<uint64_t>(nearest_whole(static_cast<double>(milliseconds) * fps / 1000));
+  return uint64_t(nearest_whole(double(milliseconds) * fps / 1000));
 }
 
 }  // namespace carom

@@ -18,7 +18,7 @@ constexpr int64_t nudge = 4096;
 
 /// The nearest whole number; of a positive factor.
 constexpr int64_t fixed(double factor) {
-  return static_cast<int64_t>(factor * static_cast<double>(2 * one) + 1) / 2;
+  return int64_t(factor * double(2 * one) + 1) / 2;
 }
 
 /// `level` + 1/2, for rounding.
@@ -40,8 +40,7 @@ constexpr int64_t cr_red = fixed(cr * (whole - red)), cr_green = fixed(cr * gree
 /// `rgb`: `width` pixels.
 void luma_row(const uint8_t* rgb, size_t width, uint8_t* y) {
   for (size_t x = 0; x < width; ++x)
-    y[x] = static_cast<uint8_t>((rgb[3 * x] * y_red + rgb[3 * x + 1] * y_green + rgb[3 * x + 2] * y_blue + above(16)) >>
-                                bits);
+    y[x] = uint8_t((rgb[3 * x] * y_red + rgb[3 * x + 1] * y_green + rgb[3 * x + 2] * y_blue + above(16)) >> bits);
 }
 
 /// `upper`, `lower`: two rows of 2 * `width` pixels.
@@ -50,8 +49,8 @@ void chroma_row(const uint8_t* upper, const uint8_t* lower, size_t width, uint8_
     const int64_t r = upper[0] + upper[3] + lower[0] + lower[3];
     const int64_t g = upper[1] + upper[4] + lower[1] + lower[4];
     const int64_t b = upper[2] + upper[5] + lower[2] + lower[5];
-    u[x] = static_cast<uint8_t>((b * cb_blue - r * cb_red - g * cb_green + above(128)) >> bits);
-    v[x] = static_cast<uint8_t>((r * cr_red - g * cr_green - b * cr_blue + above(128)) >> bits);
+    u[x] = uint8_t((b * cb_blue - r * cb_red - g * cb_green + above(128)) >> bits);
+    v[x] = uint8_t((r * cr_red - g * cr_green - b * cr_blue + above(128)) >> bits);
   }
 }
 
@@ -62,8 +61,8 @@ class RgbRows {
 
   /// Valid until the next call.
   const uint8_t* row(int number) {
-    const uint8_t* from = image_.row(std::min(number, image_.height - 1));
-    const auto width = static_cast<size_t>(image_.width);
+    const uint8_t* from = image_.row(min(number, image_.height - 1));
+    const auto width = size_t(image_.width);
     if (image_.channels == 3 && copy_.size() == 3 * width) return from;
     if (image_.channels == 3)
       std::copy_n(from, 3 * width, copy_.begin());
@@ -76,8 +75,7 @@ class RgbRows {
  private:
   void show_on_black(const uint8_t* rgba, size_t width) {
     for (size_t x = 0; x < width; ++x)
-      for (size_t c = 0; c < 3; ++c)
-        copy_[3 * x + c] = static_cast<uint8_t>((rgba[4 * x + c] * rgba[4 * x + 3] + 127) / 255);
+      for (size_t c = 0; c < 3; ++c) copy_[3 * x + c] = uint8_t((rgba[4 * x + c] * rgba[4 * x + 3] + 127) / 255);
   }
 
   const Image& image_;
@@ -92,7 +90,7 @@ Size yuv_size(const Image& image) {
 
 void to_yuv420p(const Image& image, vector<uint8_t>& planes) {
   const Size size = yuv_size(image);
-  const auto width = static_cast<size_t>(size.width), height = static_cast<size_t>(size.height);
+  const auto width = size_t(size.width), height = size_t(size.height);
   planes.resize(width * height * 3 / 2);
 
   uint8_t* y = planes.data();

@@ -39,7 +39,7 @@ struct Stored {
 Stored read_stored(const FilePlace& place) {
   constexpr uint64_t most = uint64_t{1} << 40;
   const string text = read_text(place.folder, checkpoint_name, most).value_or("");
-  const string_view body = string_view(text).substr(std::min(head_size, text.size()));
+  const string_view body = string_view(text).substr(min(head_size, text.size()));
   if (!text.starts_with(magic) || text.compare(head_size - hash_size, hash_size, sha256(body)) != 0)
     throw ArchiveError();
 

@@ -32,7 +32,7 @@ void copy_file(const FileSpot& from, const FilePlace& to, const FileRecord& reco
   while ((n = read(source.get(), buffer.data(), buffer.size())) != 0) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("copy", to, name);
-    file.write({buffer.data(), static_cast<size_t>(n)});
+    file.write({buffer.data(), size_t(n)});
   }
 
   // What was read has the hash of the manifest.

@@ -34,7 +34,7 @@ FilePlace place_of(int descriptor) {
   if (descriptor == AT_FDCWD) return {descriptor, ""};
   array<char, 4096> path{};
   const ssize_t size = readlink(fmt::format("/proc/self/fd/{}", descriptor).c_str(), path.data(), path.size());
-  return {descriptor, size > 0 ? string(path.data(), static_cast<size_t>(size)) : "a file"};
+  return {descriptor, size > 0 ? string(path.data(), size_t(size)) : "a file"};
 }
 
 bool is_absent(int error) {

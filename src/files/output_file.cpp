@@ -63,7 +63,7 @@ OutputFile::OutputFile(const FilePlace& place, Descriptor nameless)
 void OutputFile::write(string_view bytes) {
   while (used_ + bytes.size() > size_) {
     if (used_ == size_) make_room(1);
-    const size_t now = std::min(bytes.size(), size_ - used_);
+    const size_t now = min(bytes.size(), size_ - used_);
     std::memcpy(data_ + used_, bytes.data(), now);
     used_ += now;
     bytes.remove_prefix(now);
@@ -76,7 +76,7 @@ void OutputFile::write(string_view bytes) {
 void OutputFile::make_room(size_t size) {
   flush();
   vector<char>& bytes = pieces_.item().bytes;
-  if (bytes.size() < size) bytes.resize(std::max(size, least_block));
+  if (bytes.size() < size) bytes.resize(max(size, least_block));
   data_ = bytes.data();
   size_ = bytes.size();
 }
@@ -95,13 +95,13 @@ void OutputFile::put(const Piece& piece) {
     const ssize_t n = ::write(file_.get(), piece.bytes.data() + done, piece.used - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail("write", place_, record_.name);
-    done += static_cast<size_t>(n);
+    done += size_t(n);
   }
 
   record_.bytes += piece.used;
   if (const uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
     // If the file system does not support this, the sync at the end does all of it.
-    sync_file_range(file_.get(), static_cast<off_t>(on_the_way_), static_cast<off_t>(more), SYNC_FILE_RANGE_WRITE);
+    sync_file_range(file_.get(), off_t(on_the_way_), off_t(more), SYNC_FILE_RANGE_WRITE);
     on_the_way_ = record_.bytes;
   }
 }
@@ -126,18 +126,18 @@ void OutputFile::go_on(const WrittenPart& part) {
   // Hash what is there.
   vector<char> buffer(least_block);
   for (record_.bytes = 0; record_.bytes < part.bytes;) {
-    const size_t most = std::min<uint64_t>(buffer.size(), part.bytes - record_.bytes);
-    const ssize_t n = pread(file_.get(), buffer.data(), most, static_cast<off_t>(record_.bytes));
+    const size_t most = min<uint64_t>(buffer.size(), part.bytes - record_.bytes);
+    const ssize_t n = pread(file_.get(), buffer.data(), most, off_t(record_.bytes));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", place_, record_.name);
     if (n == 0) throw ArchiveError();
-    hash_.add({buffer.data(), static_cast<size_t>(n)});
-    record_.bytes += static_cast<size_t>(n);
+    hash_.add({buffer.data(), size_t(n)});
+    record_.bytes += size_t(n);
   }
   if (Sha256(hash_).hex() != part.sha256) throw ArchiveError();
 
   on_the_way_ = record_.bytes;
-  if (lseek(file_.get(), static_cast<off_t>(record_.bytes), SEEK_SET) < 0) fail("write", place_, record_.name);
+  if (lseek(file_.get(), off_t(record_.bytes), SEEK_SET) < 0) fail("write", place_, record_.name);
 }
 
 void OutputFile::complete() {
@@ -145,8 +145,7 @@ void OutputFile::complete() {
   drain();
   if (!has_name_) return;
   // An interrupted run may have written more.
-  if (place_.goes_on && ftruncate(file_.get(), static_cast<off_t>(record_.bytes)) != 0)
-    fail("write", place_, record_.name);
+  if (place_.goes_on && ftruncate(file_.get(), off_t(record_.bytes)) != 0) fail("write", place_, record_.name);
   record_.sha256 = hash_.hex();
   // Some file systems report a full disk only here.
   if (close(file_.release()) != 0) fail("write", place_, record_.name);

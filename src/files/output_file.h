@@ -30,7 +30,7 @@ class OutputFile : public PartFile {
     if (used_ + size > size_) make_room(size);
     return data_ + used_;
   }
-  void written(const char* end) { used_ = static_cast<size_t>(end - data_); }
+  void written(const char* end) { used_ = size_t(end - data_); }
 
   /// Passes all bytes so far to the system. From here on the temporary file stays, even if the run fails.
   WrittenPart pause();

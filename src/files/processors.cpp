@@ -18,11 +18,11 @@ size_t threads = 0;  // 0: a share of the processors
 size_t processors() {
   cpu_set_t set;
   if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
-  return static_cast<size_t>(std::max(CPU_COUNT(&set), 1));
+  return size_t(max(CPU_COUNT(&set), 1));
 }
 
 void share_processors(size_t jobs) {
-  processes = std::max<size_t>(jobs, 1);
+  processes = max<size_t>(jobs, 1);
   setenv("LP_NUM_THREADS", std::to_string(share_of_processors()).c_str(), 0);
 }
 
@@ -33,7 +33,7 @@ void use_threads(size_t count) {
 
 size_t share_of_processors() {
   if (threads > 0) return threads;
-  return std::max<size_t>(1, processors() / processes);
+  return max<size_t>(1, processors() / processes);
 }
 
 }  // namespace carom

@@ -11,7 +11,7 @@
 namespace carom {
 
 string Series::put(const string& name, string_view bytes) {
-  return put(static_cast<int64_t>(records_.size()), name, bytes);
+  return put(int64_t(records_.size()), name, bytes);
 }
 
 string Series::put(int64_t number, const string& file_name, string_view bytes) {

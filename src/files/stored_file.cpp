@@ -26,7 +26,7 @@ size_t read_some(int file, char* to, size_t size) {
   do n = read(file, to, size);
   while (n < 0 && errno == EINTR);
   if (n < 0) fail("read", place_of(file), "");
-  return static_cast<size_t>(n);
+  return size_t(n);
 }
 
 Descriptor open_stored(int folder, const string& name) {
@@ -46,7 +46,7 @@ optional<uint64_t> stored_size(int folder, const string& name) {
     return nullopt;
   }
   if (!S_ISREG(info.st_mode)) return nullopt;
-  return static_cast<uint64_t>(info.st_size);
+  return uint64_t(info.st_size);
 }
 
 optional<FileRecord> read_record(int folder, const string& name) {

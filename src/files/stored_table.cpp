@@ -22,20 +22,20 @@ constexpr size_t first_piece = 4096, piece_size = size_t{64} * 1024;
 /// Reads exactly `size` bytes at `offset`.
 void read_at(int file, char* to, size_t size, uint64_t offset) {
   while (size > 0) {
-    const ssize_t n = pread(file, to, size, static_cast<off_t>(offset));
+    const ssize_t n = pread(file, to, size, off_t(offset));
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) fail("read", place_of(file), "");
     if (n == 0) fail("read", place_of(file), "", "it was truncated");
     to += n;
-    size -= static_cast<size_t>(n);
-    offset += static_cast<uint64_t>(n);
+    size -= size_t(n);
+    offset += uint64_t(n);
   }
 }
 
 uint64_t size_of(int file) {
   struct stat info {};
   if (fstat(file, &info) != 0) fail("read", place_of(file), "");
-  return static_cast<uint64_t>(info.st_size);
+  return uint64_t(info.st_size);
 }
 
 }  // namespace
@@ -62,9 +62,9 @@ void split_cells(string_view line, vector<string_view>& cells, string& unquoted)
       }
 
       cells.push_back(string_view(unquoted).substr(from));
-      i = std::min(line.find(',', std::min(i, line.size())), line.size()) + 1;
+      i = min(line.find(',', min(i, line.size())), line.size()) + 1;
     } else {
-      const size_t end = std::min(line.find(',', i), line.size());
+      const size_t end = min(line.find(',', i), line.size());
       cells.push_back(line.substr(i, end - i));
       i = end + 1;
     }
@@ -81,7 +81,7 @@ StoredTable::StoredTable(Descriptor file) : file_(std::move(file)) {
 optional<size_t> StoredTable::find(string_view column) const {
   const auto found = std::ranges::find(columns_, column);
   if (found == columns_.end()) return nullopt;
-  return static_cast<size_t>(found - columns_.begin());
+  return size_t(found - columns_.begin());
 }
 
 bool StoredTable::read_line(string_view& line) {
@@ -100,8 +100,7 @@ bool StoredTable::read_line(string_view& line) {
     quoted = false;
     buffer_.erase(0, begin_);
     begin_ = 0;
-    const size_t kept = buffer_.size(),
-                 more = std::max(buffer_.capacity() < first_piece ? first_piece : piece_size, kept);
+    const size_t kept = buffer_.size(), more = max(buffer_.capacity() < first_piece ? first_piece : piece_size, kept);
     buffer_.resize(kept + more);
     const size_t n = read_some(file_.get(), buffer_.data() + kept, more);
     buffer_.resize(kept + n);
@@ -126,7 +125,7 @@ void lines_from_end(int file, const function<bool(string_view line)>& take) {
   uint64_t at = size_of(file);
   while (at > 0) {
     // Put another piece in front.
-    const size_t size = static_cast<size_t>(std::min<uint64_t>(at, std::max(piece_size, text.size())));
+    const size_t size = size_t(min<uint64_t>(at, max(piece_size, text.size())));
     at -= size;
     string piece(size, '\0');
     read_at(file, piece.data(), size, at);

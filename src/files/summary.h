@@ -50,9 +50,9 @@ struct ContactCounts {
 
 /// A measure of a run: a number, or a text.
 struct Measured {
-  string name;                                              // "balls.red.speed_m_per_s"
-  double value = std::numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
-  string text{};                                            // empty: a number, or undefined
+  string name;                                         // "balls.red.speed_m_per_s"
+  double value = numeric_limits<double>::quiet_NaN();  // not finite: undefined, or a text
+  string text{};                                       // empty: a number, or undefined
 };
 
 /// The entry of a requested file that the run gave up.

@@ -58,7 +58,7 @@ constexpr array<SummaryColumn, 26> columns = {{
 double SummaryColumn::number(const Summary& summary) const {
   const auto given = value(summary);
   const auto* count = std::get_if<uint64_t>(&given);
-  return count != nullptr ? static_cast<double>(*count) : std::get<double>(given);
+  return count != nullptr ? double(*count) : std::get<double>(given);
 }
 
 span<const SummaryColumn> summary_columns() {

@@ -17,7 +17,7 @@ Vec3 clamped(const Volume& v, const Vec3& p) {
   if (v.shape == Shape::box) return p.cwiseMax(-v.half).cwiseMin(v.half);
   const double rho = std::sqrt(p.x() * p.x() + p.z() * p.z());
   const double shrink = rho > v.half.x() ? v.half.x() / rho : 1;
-  return {shrink * p.x(), std::clamp(p.y(), -v.half.y(), v.half.y()), shrink * p.z()};
+  return {shrink * p.x(), clamp(p.y(), -v.half.y(), v.half.y()), shrink * p.z()};
 }
 
 struct Segment {
@@ -29,11 +29,11 @@ array<double, 2> closest_parameters(const Segment& p, const Segment& q) {
   const Vec3 r = p.from - q.from;
   const double a = p.along.squaredNorm(), e = q.along.squaredNorm(), b = p.along.dot(q.along);
   const double c = p.along.dot(r), f = q.along.dot(r), det = a * e - b * b;
-  double s = det > 0 ? std::clamp((b * f - c * e) / det, 0.0, 1.0) : 0.5;
+  double s = det > 0 ? clamp((b * f - c * e) / det, 0.0, 1.0) : 0.5;
   double t = (b * s + f) / e;
   if (t < 0 || t > 1) {
-    t = std::clamp(t, 0.0, 1.0);
-    s = std::clamp((b * t - c) / a, 0.0, 1.0);
+    t = clamp(t, 0.0, 1.0);
+    s = clamp((b * t - c) / a, 0.0, 1.0);
   }
   return {s, t};
 }
@@ -111,7 +111,7 @@ ClosestPoints closest_points(const Volume& a, const Vec3& xa, const Wall& wall, 
 
   // The middle of all that are nearest.
   double least = never;
-  for (const ClosestPoints& p : all) least = std::min(least, (p.on_b - p.on_a).norm());
+  for (const ClosestPoints& p : all) least = min(least, (p.on_b - p.on_a).norm());
   const double tie = least + 0x1p-48 * (a.half.sum() + wall.half_width + wall.half_height);
 
   ClosestPoints middle{Vec3::Zero(), Vec3::Zero()};

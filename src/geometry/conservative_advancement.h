@@ -81,11 +81,11 @@ class ConservativeAdvancement {
           continue;
         }
         if (out < 0) return contact(t + on, s.feature);
-        on = std::max(on, leaves_until(s, t, v, out));
+        on = max(on, leaves_until(s, t, v, out));
         if (on == never) return {never, no_feature};
       }
 
-      t = std::max(t + on, std::nextafter(t, never));
+      t = max(t + on, std::nextafter(t, never));
     }
 
     return {never, no_feature};
@@ -146,7 +146,7 @@ class ConservativeAdvancement {
     // The path flies off along a curved surface that turns away faster than it does. The plane gives no information
     // here. A short step, relative to the surface's size, lifts the path off.
     constexpr double step = 0x1p-26;
-    return step * std::min(set_.size() / v.norm(), std::sqrt(set_.size() / relative_acceleration.norm()));
+    return step * min(set_.size() / v.norm(), std::sqrt(set_.size() / relative_acceleration.norm()));
   }
 
   /// Of the faces at a sharp edge, the one over which the point leaves.

@@ -72,7 +72,7 @@ Roots exit_times(const RelativeMotion& m, double s, double horizon) {
   Roots exits;
   const Roots all = roots_between(room, 0, horizon);
   for (int k = 0; k < all.count; ++k)
-    if (const double t = all.at[static_cast<size_t>(k)]; slope(t) < 0) exits.at[static_cast<size_t>(exits.count++)] = t;
+    if (const double t = all.at[size_t(k)]; slope(t) < 0) exits.at[size_t(exits.count++)] = t;
   return exits;
 }
 
@@ -89,7 +89,7 @@ Polynomial lowered(Polynomial f, const RelativeMotion& m, double s) {
   constexpr double rounding = 0x1p-49;
   const double p = m.d.cwiseAbs().sum() + s, q = m.w.cwiseAbs().sum(), r = 0.5 * m.a.cwiseAbs().sum();
   const double bound[5] = {p * p, 2 * p * q, q * q + 2 * p * r, 2 * q * r, r * r};
-  for (int k = 0; k <= f.degree; ++k) f.c[static_cast<size_t>(k)] -= rounding * bound[k + 4 - f.degree];
+  for (int k = 0; k <= f.degree; ++k) f.c[size_t(k)] -= rounding * bound[k + 4 - f.degree];
   return f;
 }
 
@@ -171,7 +171,7 @@ double straight_taut_time(const RelativeMotion& m, double s, double horizon) {
   if (speed2 == 0) return never;
   double c = m.just_separated ? 0 : -squared_gap(m.d, s), b = m.d.dot(m.w);
   if (c <= gap_noise * s * s && std::abs(b) <= velocity_noise * m.speeds * s) b = c = 0;
-  c = std::max(c, 0.0);
+  c = max(c, 0.0);
   if (c == 0 && b >= 0) return 0;
   const double root = std::sqrt(b * b + c * speed2);
   const double t = b > 0 ? c / (b + root) : (root - b) / speed2;

@@ -14,8 +14,7 @@ inline array<DoubleDouble, 3> exact_position(const RelativeMotion& m, double t) 
   const DoubleDouble half_square = two_product(0.5 * t, t);
   array<DoubleDouble, 3> p;
   for (int k = 0; k < 3; ++k)
-    p[static_cast<size_t>(k)] =
-        DoubleDouble{m.d[k], 0} + (two_product(t, m.w[k]) + half_square * DoubleDouble{m.a[k], 0});
+    p[size_t(k)] = DoubleDouble{m.d[k], 0} + (two_product(t, m.w[k]) + half_square * DoubleDouble{m.a[k], 0});
   return p;
 }
 

@@ -103,7 +103,7 @@ Vec3 sphere_center(Points points) {
   solve(basis);
 
   Vec3 best = basis.center;
-  double best_square = std::numeric_limits<double>::infinity();
+  double best_square = numeric_limits<double>::infinity();
   while (true) {
     double square = -1;
     const Vec3* farthest = nullptr;
@@ -123,9 +123,9 @@ Vec3 sphere_center(Points points) {
 
 double farthest_from(const Vec3& center, Points points) {
   double square = 0;
-  for (const Vec3& p : points) square = std::max(square, (p - center).squaredNorm());
+  for (const Vec3& p : points) square = max(square, (p - center).squaredNorm());
   // Rounded up, so that no point is outside by the rounding of its own distance.
-  return std::sqrt(square) * (1 + 2 * std::numeric_limits<double>::epsilon());
+  return std::sqrt(square) * (1 + 2 * numeric_limits<double>::epsilon());
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ Fit tightest(Shape shape, Points points) {
   if (!(size > 0)) throw std::invalid_argument("all points are in one place: a volume around them has no size");
 
   // Near the origin and near size 1 the exponent's range loses no square.
-  const double across = shape == Shape::cylinder ? std::max(extent.x(), extent.z()) : size;
+  const double across = shape == Shape::cylinder ? max(extent.x(), extent.z()) : size;
   if (!(across > 0))
     throw std::invalid_argument("the points have no extent along x and z: a cylinder around them has no radius");
   const double unit = std::ldexp(1.0, std::ilogb(across));
@@ -180,7 +180,7 @@ Fit tightest(Shape shape, Points points) {
       if (extent[axis] == 0)
         throw std::invalid_argument(string("the points have no extent along ") + "xyz"[axis] + ": a " +
                                     (box ? "box" : "cylinder") + " around them has no thickness");
-      fit.volume.half[axis] = std::max(high[axis] - fit.center[axis], fit.center[axis] - low[axis]);
+      fit.volume.half[axis] = max(high[axis] - fit.center[axis], fit.center[axis] - low[axis]);
     }
   }
   return fit;

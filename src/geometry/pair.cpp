@@ -88,9 +88,9 @@ uint8_t wall_feature(uint8_t code) {
   const PrismFeature f = PrismFeature::of(code);
   // 0: on the side to which right or up points.
   const int right = f.x > 0, up = f.y > 0;
-  if (f.x != 0 && f.y != 0) return static_cast<uint8_t>(wall_corners + right + 2 * up);
-  if (f.x != 0) return static_cast<uint8_t>(wall_edges + right);
-  if (f.y != 0) return static_cast<uint8_t>(wall_edges + 2 + up);
+  if (f.x != 0 && f.y != 0) return uint8_t(wall_corners + right + 2 * up);
+  if (f.x != 0) return uint8_t(wall_edges + right);
+  if (f.y != 0) return uint8_t(wall_edges + 2 + up);
   return f.z < 0 ? wall_front : wall_back;
 }
 

@@ -54,12 +54,12 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
         if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
         // The surface turns away faster than the path bends towards it.
         const double size = world.radius[a];
-        least = 0x1p-26 * std::min(size / w.norm(), std::sqrt(size / std::abs(acceleration)));
+        least = 0x1p-26 * min(size / w.norm(), std::sqrt(size / std::abs(acceleration)));
       }
       gap = 0;
     }
 
-    const double on = std::max(way.descent(n, t, gap, rate, std::max(horizon - t, least)), least);
+    const double on = max(way.descent(n, t, gap, rate, max(horizon - t, least)), least);
     if (on == never) return {never, no_feature};
     // The clock is too coarse to come nearer.
     if (t + on == t && there.gap > closed) return {t, there.feature};
@@ -142,7 +142,7 @@ FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, En
   while (t < horizon) {
     const Vec3 w = way.velocity(t);
     const double jerk = way.jerk(t);
-    const double length = jerk > 0 ? std::min(horizon - t, cube_root(6 * room / jerk)) : horizon - t;
+    const double length = jerk > 0 ? min(horizon - t, cube_root(6 * room / jerk)) : horizon - t;
     const RelativeMotion m{pb.x - pa.x + way.displacement(t), w, way.acceleration(t), w.cwiseAbs().sum(), true};
     const FeatureTime rim = leave_feature(world, a, b, feature, m, length);
 

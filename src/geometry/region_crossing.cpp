@@ -53,7 +53,7 @@ class Condition {
     // From the point.
     const DoubleDouble half_square = two_product(0.5 * t, t);
     for (int k = 0; k < 3; ++k) {
-      DoubleDouble& at = d[static_cast<size_t>(k)];
+      DoubleDouble& at = d[size_t(k)];
       at = two_sum(path_.x[k], -point_[k]);
       at = path_.parabola ? at + (two_product(t, path_.v[k]) + half_square * DoubleDouble{path_.a[k], 0})
                           : at + DoubleDouble{bent[k], 0};
@@ -61,7 +61,7 @@ class Condition {
 
     DoubleDouble sum = round_ ? -two_product(reach_, reach_) : DoubleDouble{-reach_, 0};
     for (int k = 0; k < 3; ++k) {
-      const DoubleDouble& at = d[static_cast<size_t>(k)];
+      const DoubleDouble& at = d[size_t(k)];
       if (axes_[k] != 0) sum = sum + at * (round_ ? at : DoubleDouble{axes_[k], 0});
     }
 

@@ -153,7 +153,7 @@ Vec3 RoundPrism::within(const Vec3& p, uint8_t feature) const {
   for (int k = 0; k < 3; ++k) {
     if (side[k] == 0 || half[k] == 0) continue;
     const double rim = half[k] + (k != 1 && !f.bent() ? disc : 0);
-    q[k] = side[k] * std::max(side[k] * p[k], rim);
+    q[k] = side[k] * max(side[k] * p[k], rim);
   }
   return q;
 }
@@ -256,7 +256,7 @@ FeatureTime RoundPrism::leave_round_cap(PrismFeature f, const RelativeMotion& m,
 
     const Roots exits = exit_times(level, disc, horizon);
     for (int k = 0; k < exits.count; ++k) {
-      const double t = exits.at[static_cast<size_t>(k)];
+      const double t = exits.at[size_t(k)];
       const Vec3 p = path(t);
       const double rounding = 0x1p-44 * (size() + p.cwiseAbs().sum() + m.d.cwiseAbs().sum());
       const bool on_corner = c.x * p.x() >= half.x() - rounding && c.z * p.z() >= half.z() - rounding;

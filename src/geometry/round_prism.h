@@ -16,7 +16,7 @@ namespace carom {
 /// has signs 1 in x and z.
 struct PrismFeature {
   int x, y, z;
-  uint8_t code() const { return static_cast<uint8_t>((x + 1) + 3 * (y + 1) + 9 * (z + 1)); }
+  uint8_t code() const { return uint8_t((x + 1) + 3 * (y + 1) + 9 * (z + 1)); }
   static PrismFeature of(uint8_t code) { return {code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1}; }
   // The normal has a part in the rectangle's plane.
   bool level() const { return x != 0 || z != 0; }

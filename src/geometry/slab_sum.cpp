@@ -20,7 +20,7 @@ SlabSum::SlabSum(const Vec3& half, const Wall& wall) : size_(half.sum() + wall.h
       // Parallel: other pairs span their faces too.
       if (sine < 0x1p-50) continue;
 
-      Slab& slab = slabs_[static_cast<size_t>(count_++)];
+      Slab& slab = slabs_[size_t(count_++)];
       slab = {i == 3 ? wall.normal : Vec3(cross / sine), 0};
       for (int k = 0; k < 5; ++k)
         if (k != i && k != j) slab.half += reach[k] * std::abs(along[k].dot(slab.normal));
@@ -31,14 +31,14 @@ Separation SlabSum::nearest(const Vec3& p) const {
   int face = 0;
   double gap = -never;
   for (int k = 0; k < count_; ++k) {
-    const Slab& slab = slabs_[static_cast<size_t>(k)];
+    const Slab& slab = slabs_[size_t(k)];
     const double along = slab.normal.dot(p);
     if (std::abs(along) - slab.half > gap) {
       gap = std::abs(along) - slab.half;
       face = 2 * k + (along < 0);
     }
   }
-  return at(p, static_cast<uint8_t>(face));
+  return at(p, uint8_t(face));
 }
 
 Separation SlabSum::at(const Vec3& p, uint8_t feature) const {
@@ -56,7 +56,7 @@ FeatureTime SlabSum::leave(uint8_t feature, const RelativeMotion& m, double hori
   FeatureTime first{never, no_feature};
   const Vec3& n = slabs_[feature / 2].normal;
   for (int k = 0; k < 2 * count_; ++k) {
-    const auto other = static_cast<uint8_t>(k);
+    const auto other = uint8_t(k);
     if (other / 2 == feature / 2) continue;
     const Separation s = at(m.d, other);
     // The same face, spanned by another pair.

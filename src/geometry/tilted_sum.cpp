@@ -55,13 +55,13 @@ TiltedSum::Patch TiltedSum::patch(uint8_t feature) const {
 
 /// p projected along a segment into the disc's plane.
 Vec3 TiltedSum::shadow(const Vec3& p, int along) const {
-  const Vec3& g = segments_[static_cast<size_t>(along)];
+  const Vec3& g = segments_[size_t(along)];
   return level_part(p - p.y() / g.y() * g);
 }
 
 /// The normal in space (not unit) of a line with the normal `level` in the projection along a segment.
 Vec3 TiltedSum::slanted(const Vec3& level, int along) const {
-  const Vec3& g = segments_[static_cast<size_t>(along)];
+  const Vec3& g = segments_[size_t(along)];
   return {level.x(), -(level.x() * g.x() + level.z() * g.z()) / g.y(), level.z()};
 }
 
@@ -81,7 +81,7 @@ uint8_t TiltedSum::nearest_corner(const Vec3& p, int along) const {
     const double distance = e.squaredNorm();
     if (distance < best_distance) {
       best_distance = distance;
-      best = static_cast<uint8_t>(patches + 4 * along + corner);
+      best = uint8_t(patches + 4 * along + corner);
     }
   }
 
@@ -111,15 +111,15 @@ Separation TiltedSum::nearest(const Vec3& p) const {
 
 Separation TiltedSum::nearest_but(const Vec3& p, int without) const {
   Separation best{-never, Vec3::UnitY(), caps};
-  for (uint8_t face = 0; face < patches; face = static_cast<uint8_t>(face + 2)) {
+  for (uint8_t face = 0; face < patches; face = uint8_t(face + 2)) {
     const Vec3 n = face_normal(face);
     if (n.isZero(0) || face / 2 == without) continue;
     const double along = n.dot(p), gap = std::abs(along) - support(n);
-    if (gap > best.gap) best = {gap, along < 0 ? Vec3(-n) : n, static_cast<uint8_t>(face + (along < 0))};
+    if (gap > best.gap) best = {gap, along < 0 ? Vec3(-n) : n, uint8_t(face + (along < 0))};
   }
 
   for (int along = 0; along < 3; ++along) {
-    if (!casts_[static_cast<size_t>(along)]) continue;
+    if (!casts_[size_t(along)]) continue;
     const uint8_t corner = nearest_corner(p, along);
     if (corner == no_feature) continue;
 
@@ -155,7 +155,7 @@ double TiltedSum::bending(const Vec3& p, uint8_t feature, const Vec3& w) const {
 
 /// A patch's cross-section is an ellipse: the disc as seen along the segment.
 double TiltedSum::curvature_radius(const Vec3& p, uint8_t feature) const {
-  const Vec3& g = segments_[static_cast<size_t>(patch(feature).along)];
+  const Vec3& g = segments_[size_t(patch(feature).along)];
   return 1 / bending(p, feature, at(p, feature).normal.cross(g.normalized()));
 }
 
@@ -181,8 +181,8 @@ FeatureTime TiltedSum::leave(uint8_t feature, const RelativeMotion& m, double ho
   for (size_t k = 0; k < 3; ++k) {
     const Vec3& g = segments_[k];
     const double along = g.dot(n);
-    const bool spans = feature < caps && (static_cast<int>(k) == first_of_face[feature / 2] ||
-                                          static_cast<int>(k) == second_of_face[feature / 2]);
+    const bool spans =
+        feature < caps && (int(k) == first_of_face[feature / 2] || int(k) == second_of_face[feature / 2]);
 
     if (spans || std::abs(along) <= 0x1p-50 * g.norm()) {
       sides[count++] = g;
@@ -222,7 +222,7 @@ FeatureTime TiltedSum::leave(uint8_t feature, const RelativeMotion& m, double ho
       const RelativeMotion level{level_part(d - end), level_part(m.w), level_part(m.a), m.speeds, false};
       const Roots exits = exit_times(level, radius_, horizon);
       for (int k = 0; k < exits.count; ++k) {
-        const double t = exits.at[static_cast<size_t>(k)];
+        const double t = exits.at[size_t(k)];
         const Vec3 e = level.d + t * (level.w + 0.5 * t * level.a);
         if (end.dot(e) >= -0x1p-40 * end.norm() * radius_) offer(t, e.normalized());
       }

@@ -67,7 +67,7 @@ Touch touch_wall(const World& world, Entity a, Entity b, const Wall& wall, const
 
 /// The middle of what an interval about 0 shares with one about d, of these half lengths.
 double middle_of_overlap(double half, double d, double other) {
-  return 0.5 * (std::max(-half, d - other) + std::min(half, d + other));
+  return 0.5 * (max(-half, d - other) + min(half, d + other));
 }
 
 /// The middle of the area that a disc shares with a rectangle or another disc with its centre at d, from the disc's
@@ -83,14 +83,14 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
   Vec3 middle = Vec3::Zero(), nearest = Vec3::Zero();
   for (int k : {0, 2}) {
     middle[k] = middle_of_overlap(disc, d[k], other.half[k]);
-    nearest[k] = std::clamp(0.0, d[k] - other.half[k], d[k] + other.half[k]);
+    nearest[k] = clamp(0.0, d[k] - other.half[k], d[k] + other.half[k]);
   }
   if (middle.norm() <= disc) return middle;
 
   // Only a corner of the rectangle is over the disc. The middle is half way from there to the disc's rim.
   const Vec3 across = middle - nearest;
   const double half = nearest.dot(across), length = across.squaredNorm();
-  const double inside = std::max(disc * disc - nearest.squaredNorm(), 0.0);
+  const double inside = max(disc * disc - nearest.squaredNorm(), 0.0);
   const double on_rim = inside > 0 ? inside / (half + std::sqrt(half * half + length * inside)) : 0;
   return nearest + 0.5 * on_rim * across;
 }
@@ -103,7 +103,7 @@ Vec3 contact_in_prism(const PairPrism& pair, const Vec3& p, const Separation& s)
 
   Vec3 c;
   for (int k = 0; k < 3; ++k) {
-    c[k] = std::clamp(middle_of_overlap(a.half[k], p[k], b.half[k]), -a.half[k], a.half[k]);
+    c[k] = clamp(middle_of_overlap(a.half[k], p[k], b.half[k]), -a.half[k], a.half[k]);
   }
   if (a.shape == Shape::box && b.shape == Shape::box) return c;
 

@@ -101,7 +101,7 @@ FeatureTime wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
     if (!(t < first.time)) return;
     first = {t, feature};
     // A later contact does not matter.
-    horizon = std::min(horizon, t);
+    horizon = min(horizon, t);
   };
 
   const bool on_rim = left != no_feature && left >= wall_edges;
@@ -110,14 +110,14 @@ FeatureTime wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
 
   const double signs[2] = {1, -1};
   for (int k = 0; k < 4; ++k) {
-    const auto feature = static_cast<uint8_t>(wall_edges + k);
+    const auto feature = uint8_t(wall_edges + k);
     Vec3 axis = Vec3::Zero();
     axis[k / 2] = signs[k % 2] * half[k / 2];
     offer(edge_contact_time(path, 1 - k / 2, half[1 - k / 2], axis, radius, left == feature, horizon), feature);
   }
 
   for (int k = 0; k < 4; ++k) {
-    const auto feature = static_cast<uint8_t>(wall_corners + k);
+    const auto feature = uint8_t(wall_corners + k);
     const Vec3 corner(signs[k % 2] * half[0], signs[k / 2] * half[1], 0);
     const double t =
         sphere_contact_time({path.p - corner, path.v, path.a, path.rounded_speed, left == feature}, radius, horizon);
@@ -129,8 +129,8 @@ FeatureTime wall_contact_time(const Wall& wall, const RelativeMotion& motion, do
 
 Vec3 nearest_on_wall(const Wall& wall, const Vec3& center, const Vec3& x) {
   const Vec3 d = x - center;
-  const double u = std::clamp(d.dot(wall.right), -wall.half_width, wall.half_width);
-  const double w = std::clamp(d.dot(wall.up), -wall.half_height, wall.half_height);
+  const double u = clamp(d.dot(wall.right), -wall.half_width, wall.half_width);
+  const double w = clamp(d.dot(wall.up), -wall.half_height, wall.half_height);
   return center + u * wall.right + w * wall.up;
 }
 
@@ -148,7 +148,7 @@ FeatureTime wall_release_time(const Wall& wall, const RelativeMotion& motion, do
     // The room before this rim, half - side p, falls to zero like the gap above a plane.
     const double t = plane_contact_time(half[axis] - side * path.p[axis], -side * path.v[axis], -side * path.a[axis], 0,
                                         false, horizon);
-    if (t < first.time) first = {t, static_cast<uint8_t>(wall_edges + k)};
+    if (t < first.time) first = {t, uint8_t(wall_edges + k)};
   }
   return first;
 }

@@ -32,7 +32,7 @@ Bernstein Bernstein::of_powers(const array<double, most_degree + 1>& a, size_t d
     double share = 1;
     for (size_t k = 0; k <= i; ++k) {
       to.b[i] += share * a[k];
-      if (k < i) share *= static_cast<double>(i - k) / static_cast<double>(degree - k);
+      if (k < i) share *= double(i - k) / double(degree - k);
     }
   }
   return to;

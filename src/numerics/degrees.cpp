@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "std.h"
+
 namespace carom {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double nan = numeric_limits<double>::quiet_NaN();
 /// pi / 180, the second double being the rounding error of the first.
 constexpr DoubleDouble radians{0x1.1df46a2529d39p-6, 0x1.5c1d8becdd291p-62};
 constexpr double degrees = 0x1.ca5dc1a63c1f8p+5;  // 180 / pi
@@ -34,7 +36,7 @@ SinCos sin_cos_degrees(double angle) {
   const double turn = std::fmod(angle, 360);
   const double quarters = std::nearbyint(turn / 90);
   const SinCos of = reduced(turn - 90 * quarters);
-  const int quarter = (static_cast<int>(quarters) + 8) % 4;
+  const int quarter = (int(quarters) + 8) % 4;
   if (quarter == 0) return {of.sin, of.cos};
   if (quarter == 1) return {of.cos, 0 - of.sin};
   if (quarter == 2) return {0 - of.sin, -of.cos};
@@ -55,7 +57,7 @@ double arc_cosine_degrees(double c) {
 
 double arc_tangent_degrees(double y, double x) {
   // Scaled by a power of two, so that no product overflows.
-  const double largest = std::max(std::abs(x), std::abs(y));
+  const double largest = max(std::abs(x), std::abs(y));
   if (largest == 0) return 0;
   const int exponent = std::ilogb(largest);
   const double sx = std::ldexp(x, -exponent), sy = std::ldexp(y, -exponent);

@@ -201,8 +201,8 @@ double DormandPrince::step(double h, const Acceleration& acceleration, double po
     for (int axis = 0; axis < 3; ++axis) {
       const double x_error = error_of(h, x5[axis], x3[axis]) / position;
       const double v_error = error_of(h, v5[axis], v3[axis]) / velocity;
-      if (!std::isfinite(x_error) || !std::isfinite(v_error)) return std::numeric_limits<double>::infinity();
-      greatest = std::max({greatest, x_error, v_error});
+      if (!std::isfinite(x_error) || !std::isfinite(v_error)) return numeric_limits<double>::infinity();
+      greatest = max({greatest, x_error, v_error});
     }
   }
 
@@ -213,7 +213,7 @@ double DormandPrince::next_length(double h, double error) {
   constexpr double safety = 0.9, shortest = 0.2, longest = 6;
   if (!std::isfinite(error)) return shortest * h;
   const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
-  return h * (eighth_root > 0 ? std::clamp(safety / eighth_root, shortest, longest) : longest);
+  return h * (eighth_root > 0 ? clamp(safety / eighth_root, shortest, longest) : longest);
 }
 
 void DormandPrince::interpolate(const Acceleration& acceleration) {
@@ -270,7 +270,7 @@ PolynomialPath DormandPrince::path(size_t k) const {
   path.length = length_;
   path.displacement[0] = length_ * v_[k];
   for (size_t power = 0; power < terms; ++power)
-    path.displacement[power + 1] = length_ / static_cast<double>(power + 2) * change[power];
+    path.displacement[power + 1] = length_ / double(power + 2) * change[power];
   return path;
 }
 

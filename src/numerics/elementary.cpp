@@ -47,7 +47,7 @@ struct Halvings {
 /// z = count ln 2 + rest, |rest| <= ln(2)/2, for 0 <= z < 1e5.
 Halvings halvings(double z) {
   const double count = std::floor(z * (1 / (ln2_hi + ln2_lo)) + 0.5);
-  return {static_cast<int>(count), (z - count * ln2_hi) - count * ln2_lo};
+  return {int(count), (z - count * ln2_hi) - count * ln2_lo};
 }
 
 /// log(1 + y) to a relative error of 1e-7, for y >= 0. With y = 2 w / (1 - w) it is 2 atanh(w) = 2 (w + w^3/3 + ...).
@@ -68,7 +68,7 @@ double log_one_plus_guess(double y) {
 /// u - u^3/3 + ...
 double arc_tangent_guess(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y);
-  const double slope = std::min(ax, ay) / std::max(ax, ay), u = slope / (1 + std::sqrt(1 + slope * slope));
+  const double slope = min(ax, ay) / max(ax, ay), u = slope / (1 + std::sqrt(1 + slope * slope));
   const double square = u * u;
   double angle =
       2 * u * (1 - square * (1.0 / 3 - square * (0.2 - square * (1.0 / 7 - square * (1.0 / 9 - square / 11)))));
@@ -124,7 +124,7 @@ double log_one_plus(double y) {
 
 double arc_sinh(double y) {
   const double a = std::abs(y);
-  if (a > 0x1p500) return std::copysign(log_one_plus(2 * std::min(a, 0x1p1022)), y);
+  if (a > 0x1p500) return std::copysign(log_one_plus(2 * min(a, 0x1p1022)), y);
   return std::copysign(log_one_plus(a + a * (a / (1 + std::sqrt(1 + a * a)))), y);
 }
 

@@ -37,7 +37,7 @@ double arc_tangent(double y, double x);
 inline constexpr array<double, 32> inverse_factorial = [] {
   array<double, 32> of{1};
   double factorial = 1;
-  for (size_t n = 1; n < of.size(); ++n) of[n] = 1 / (factorial *= static_cast<double>(n));
+  for (size_t n = 1; n < of.size(); ++n) of[n] = 1 / (factorial *= double(n));
   return of;
 }();
 

@@ -43,7 +43,7 @@ class SparseArray {
     uint32_t& place = place_.write(i);
     if (place == 0) {
       values_.emplace_back();
-      place = static_cast<uint32_t>(values_.size());
+      place = uint32_t(values_.size());
     }
     return values_[place - 1];
   }

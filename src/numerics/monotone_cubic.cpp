@@ -30,13 +30,13 @@ array<double, 4> MonotoneCubic::piece(size_t i) const {
 
 double MonotoneCubic::operator()(double t) const {
   if (!(t > at_.front())) return value_.front();
-  const auto next = static_cast<size_t>(std::upper_bound(at_.begin(), at_.end(), t) - at_.begin());
+  const auto next = size_t(std::upper_bound(at_.begin(), at_.end(), t) - at_.begin());
   if (next == at_.size()) return value_.back();
   const array<double, 4> c = piece(next - 1);
   const double s = (t - at_[next - 1]) / (at_[next] - at_[next - 1]);
   const auto [low, high] = std::minmax(value_[next - 1], value_[next]);
   // Rounding alone could leave the range.
-  return std::clamp(c[0] + s * (c[1] + s * (c[2] + s * c[3])), low, high);
+  return clamp(c[0] + s * (c[1] + s * (c[2] + s * c[3])), low, high);
 }
 
 }  // namespace carom

@@ -74,7 +74,7 @@ void OrthogonalFactors::tail_direction(const double* d, double* v) const {
 
 double OrthogonalFactors::least_diagonal() const {
   double least = 1;
-  for (size_t j = 0; j < rank_; ++j) least = std::min(least, std::abs(r_[j * stride_ + j]));
+  for (size_t j = 0; j < rank_; ++j) least = min(least, std::abs(r_[j * stride_ + j]));
   return least;
 }
 

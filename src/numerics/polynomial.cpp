@@ -14,14 +14,14 @@
 namespace carom {
 
 double Polynomial::operator()(double t) const {
-  double value = c[static_cast<size_t>(degree)];
-  for (int k = degree - 1; k >= 0; --k) value = value * t + c[static_cast<size_t>(k)];
+  double value = c[size_t(degree)];
+  for (int k = degree - 1; k >= 0; --k) value = value * t + c[size_t(k)];
   return value;
 }
 
 Polynomial Polynomial::derivative() const {
   Polynomial d;
-  for (int k = 1; k <= degree; ++k) d.c[static_cast<size_t>(k - 1)] = k * c[static_cast<size_t>(k)];
+  for (int k = 1; k <= degree; ++k) d.c[size_t(k - 1)] = k * c[size_t(k)];
   d.degree = degree > 0 ? degree - 1 : 0;
   return d;
 }
@@ -42,14 +42,14 @@ bool add_quadratic_roots(const Polynomial& f, double low, double high, Roots& ro
   if (disc <= 0) return true;
   const double q = -0.5 * (b + std::copysign(std::sqrt(disc), b));
   const double one = q / a, other = c / q;
-  for (const double t : {std::min(one, other), std::max(one, other)})
-    if (t > low && t < high) roots.at[static_cast<size_t>(roots.count++)] = t;
+  for (const double t : {min(one, other), max(one, other)})
+    if (t > low && t < high) roots.at[size_t(roots.count++)] = t;
   return true;
 }
 
 int true_degree(const Polynomial& f) {
   int degree = f.degree;
-  while (degree > 0 && f.c[static_cast<size_t>(degree)] == 0) --degree;
+  while (degree > 0 && f.c[size_t(degree)] == 0) --degree;
   return degree;
 }
 
@@ -64,7 +64,7 @@ Roots roots_between(const Polynomial& polynomial, double low, double high) {
   if (f.degree == 0) return roots;
   if (f.degree == 1) {
     const double t = -f.c[0] / f.c[1];
-    if (t > low && t < high) roots.at[static_cast<size_t>(roots.count++)] = t;
+    if (t > low && t < high) roots.at[size_t(roots.count++)] = t;
     return roots;
   }
   if (f.degree == 2 && add_quadratic_roots(f, low, high, roots)) return roots;
@@ -76,12 +76,12 @@ Roots roots_between(const Polynomial& polynomial, double low, double high) {
   double f_l = f(l);
 
   for (int k = 0; k <= turning.count; ++k) {
-    const double r = k < turning.count ? turning.at[static_cast<size_t>(k)] : high;
+    const double r = k < turning.count ? turning.at[size_t(k)] : high;
     const double f_r = f(r);
     if (f_r == 0 && r < high) {
-      roots.at[static_cast<size_t>(roots.count++)] = r;
+      roots.at[size_t(roots.count++)] = r;
     } else if ((f_l > 0 && f_r < 0) || (f_l < 0 && f_r > 0)) {
-      roots.at[static_cast<size_t>(roots.count++)] = refine(f, df, l, r, f_l > 0);
+      roots.at[size_t(roots.count++)] = refine(f, df, l, r, f_l > 0);
     }
     l = r;
     f_l = f_r;
@@ -102,7 +102,7 @@ Descents::Descents(const Polynomial& polynomial, double horizon) : f_(polynomial
 bool Descents::next(Piece& piece) {
   while (!ended_) {
     const bool last = piece_ == turning_.count;
-    const double l = left_, r = last ? horizon_ : turning_.at[static_cast<size_t>(piece_)];
+    const double l = left_, r = last ? horizon_ : turning_.at[size_t(piece_)];
     const double f_l = at_left_, f_r = f_(r);
     left_ = r;
     at_left_ = f_r;

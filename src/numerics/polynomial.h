@@ -27,7 +27,7 @@ struct Roots {
 /// The roots of f in (low, high), both finite.
 Roots roots_between(const Polynomial& f, double low, double high);
 
-inline constexpr double never = std::numeric_limits<double>::infinity();
+inline constexpr double never = numeric_limits<double>::infinity();
 
 /// The pieces of [0, horizon] on which f is at most zero and falls, in order.
 /// At the start of a piece f crosses zero downwards. Or f was at most zero before, and begins to fall there.

@@ -55,7 +55,7 @@ PolynomialPath PolynomialPath::through(double length, const Point& start, const 
   }
 
   PolynomialPath path = path_of(length, {length * start.velocity});
-  for (size_t k = 0; k + 1 < terms; ++k) path.displacement[k + 1] = length / static_cast<double>(k + 2) * velocity[k];
+  for (size_t k = 0; k + 1 < terms; ++k) path.displacement[k + 1] = length / double(k + 2) * velocity[k];
   return path;
 }
 
@@ -66,20 +66,20 @@ Vec3 PolynomialPath::value(const Terms& of, double s) {
 }
 
 Vec3 PolynomialPath::slope_change(const Terms& of, double s) {
-  Vec3 sum = static_cast<double>(terms) * of[terms - 1];
-  for (size_t k = terms - 1; k-- > 1;) sum = sum * s + static_cast<double>(k + 1) * of[k];
+  Vec3 sum = double(terms) * of[terms - 1];
+  for (size_t k = terms - 1; k-- > 1;) sum = sum * s + double(k + 1) * of[k];
   return sum * s;
 }
 
 Vec3 PolynomialPath::bend(const Terms& of, double s) {
-  Vec3 sum = static_cast<double>(terms * (terms - 1)) * of[terms - 1];
-  for (size_t k = terms - 1; k-- > 1;) sum = sum * s + static_cast<double>((k + 1) * k) * of[k];
+  Vec3 sum = double(terms * (terms - 1)) * of[terms - 1];
+  for (size_t k = terms - 1; k-- > 1;) sum = sum * s + double((k + 1) * k) * of[k];
   return sum;
 }
 
 double PolynomialPath::greatest_acceleration() const {
   double sum = 0;
-  for (size_t k = 1; k < terms; ++k) sum += static_cast<double>((k + 1) * k) * displacement[k].norm();
+  for (size_t k = 1; k < terms; ++k) sum += double((k + 1) * k) * displacement[k].norm();
   return sum / (length * length);
 }
 

@@ -32,13 +32,13 @@ Scaled product(const Scaled& a, const Scaled& b) {
 }
 
 double value(const Scaled& of) {
-  const int64_t exponent = std::clamp<int64_t>(of.exponent, -4000, 4000);
-  return std::ldexp(of.mantissa.value(), static_cast<int>(exponent));
+  const int64_t exponent = clamp<int64_t>(of.exponent, -4000, 4000);
+  return std::ldexp(of.mantissa.value(), int(exponent));
 }
 
 Scaled whole_power(double x, double n) {
   Scaled square = normalized({x, 0}, 0), result{{1, 0}, 0};
-  for (auto left = static_cast<uint64_t>(std::abs(n)); left > 0; left >>= 1) {
+  for (auto left = uint64_t(std::abs(n)); left > 0; left >>= 1) {
     if ((left & 1) != 0) result = product(result, square);
     square = product(square, square);
   }
@@ -66,7 +66,7 @@ Scaled root(double x, double f) {
   const double whole = std::nearbyint(twos.hi);
   const double rest = (twos.hi - whole) + twos.lo;
   constexpr double ln2 = 0x1.62e42fefa39efp-1;
-  return normalized({exp_of(f * log_of(m) + rest * ln2), 0}, static_cast<int64_t>(whole));
+  return normalized({exp_of(f * log_of(m) + rest * ln2), 0}, int64_t(whole));
 }
 
 }  // namespace
@@ -76,14 +76,14 @@ double power(double x, double y) {
   if (std::isnan(x) || std::isnan(y)) return x + y;
 
   const bool is_whole = std::nearbyint(y) == y, is_odd = is_whole && std::fmod(y, 2) != 0;
-  if (x == 0) return y > 0 ? 0 : std::numeric_limits<double>::infinity();
-  if (x < 0 && !is_whole) return std::numeric_limits<double>::quiet_NaN();
+  if (x == 0) return y > 0 ? 0 : numeric_limits<double>::infinity();
+  if (x < 0 && !is_whole) return numeric_limits<double>::quiet_NaN();
   const double base = std::abs(x), sign = x < 0 && is_odd ? -1 : 1;
 
   // Such powers are 0, 1 or infinite.
   if (!std::isfinite(x) || std::abs(y) > largest_whole) {
     if (base == 1) return sign;
-    return sign * ((base > 1) == (y > 0) ? std::numeric_limits<double>::infinity() : 0);
+    return sign * ((base > 1) == (y > 0) ? numeric_limits<double>::infinity() : 0);
   }
 
   if (y == 0.5) return std::sqrt(x);

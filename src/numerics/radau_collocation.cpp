@@ -82,7 +82,7 @@ double RadauCollocation::sweep(span<const Forces> forces, const Hold& hold) {
 
     hold(at_[i], s, u);
     for (size_t k = 0; k < size(); ++k) {
-      changed = std::max(changed, (u[k] - old_speed[i][k]).cwiseAbs().maxCoeff());
+      changed = max(changed, (u[k] - old_speed[i][k]).cwiseAbs().maxCoeff());
       speed_[i][k] = u[k];
       rate_[i][k] = (u[k] - known[k]) / s;
     }
@@ -97,7 +97,7 @@ double RadauCollocation::step(double h, span<const Forces> forces, const Hold& h
   speed_.assign(nodes, v_);
   rate_.assign(nodes, vector<Vec3>(size(), Vec3::Zero()));
 
-  const double enough = 0.01 * std::min(velocity, position / h);
+  const double enough = 0.01 * min(velocity, position / h);
   double before = never;
   for (int pass = 0; pass < most_sweeps && before > enough; ++pass) {
     const double changed = sweep(forces, hold);
@@ -108,7 +108,7 @@ double RadauCollocation::step(double h, span<const Forces> forces, const Hold& h
 
   if (before > 100 * enough) return hopeless;
   const double missed = interpolate();
-  return std::max(missed / velocity, missed * method().c[0] * h / position);
+  return max(missed / velocity, missed * method().c[0] * h / position);
 }
 
 /// Makes polynomials of the stages' velocities. Returns their greatest miss of the velocity at the start (m/s), which
@@ -130,7 +130,7 @@ double RadauCollocation::interpolate() {
 
     Vec3 missed = v_[k];
     for (int n = 0; n < nodes; ++n) missed -= n % 2 == 0 ? v[n] : Vec3(-v[n]);
-    worst = std::max(worst, missed.cwiseAbs().maxCoeff());
+    worst = max(worst, missed.cwiseAbs().maxCoeff());
 
     // The integral of P_n from the start on is proportional to P_(n+1) - P_(n-1).
     d[0] = d[1] = 0.5 * length_ * v[0];
@@ -172,7 +172,7 @@ PolynomialPath RadauCollocation::path(size_t k) const {
   for (size_t n = 0; n < terms; ++n) {
     for (size_t power = 0; power <= n; ++power) velocity[power] += p[power] * of_velocity_[terms * k + n];
     array<double, terms> after{};
-    const auto order = static_cast<double>(n);
+    const auto order = double(n);
     for (size_t power = 0; power < terms; ++power) {
       const double below = power > 0 ? p[power - 1] : 0;
       after[power] = ((2 * order + 1) * (2 * below - p[power]) - order * before[power]) / (order + 1);
@@ -183,7 +183,7 @@ PolynomialPath RadauCollocation::path(size_t k) const {
   PolynomialPath path;
   path.length = length_;
   for (size_t power = 0; power < terms; ++power)
-    path.displacement[power] = length_ / static_cast<double>(power + 1) * velocity[power];
+    path.displacement[power] = length_ / double(power + 1) * velocity[power];
   return path;
 }
 

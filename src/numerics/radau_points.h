@@ -13,7 +13,7 @@ array<double, count + 1> legendre(double s) {
   const double x = 2 * s - 1;
   array<double, count + 1> p{1, x};
   for (size_t n = 2; n <= count; ++n) {
-    const auto degree = static_cast<double>(n);
+    const auto degree = double(n);
     p[n] = ((2 * degree - 1) * x * p[n - 1] - (degree - 1) * p[n - 2]) / degree;
   }
   return p;
@@ -31,7 +31,7 @@ array<double, count> radau_points() {
   array<double, count> points{};
   size_t found = 0;
   for (int k = 0; k < intervals - 1; ++k) {
-    double low = static_cast<double>(k) / intervals, high = (k + 1.0) / intervals;
+    double low = double(k) / intervals, high = (k + 1.0) / intervals;
     if (f(low) * f(high) > 0) continue;
 
     for (int pass = 0; pass < 60; ++pass) {

@@ -20,8 +20,8 @@ struct SrgbBytes {
   array<uint8_t, steps + 1> of_root{};
   SrgbBytes() {
     for (int i = 0; i <= steps; ++i) {
-      const double root = static_cast<double>(i) / steps;
-      of_root[static_cast<size_t>(i)] = static_cast<uint8_t>(std::lround(255 * srgb_of_light(root * root)));
+      const double root = double(i) / steps;
+      of_root[size_t(i)] = uint8_t(std::lround(255 * srgb_of_light(root * root)));
     }
   }
 };

@@ -95,7 +95,7 @@ Team::~Team() {
 }
 
 int Team::size() const {
-  return static_cast<int>(impl_->threads.size()) + 1;
+  return int(impl_->threads.size()) + 1;
 }
 
 void Team::run(const Task& task) {

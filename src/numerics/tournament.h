@@ -104,7 +104,7 @@ class Tournament {
 
  private:
   static constexpr size_t width = 8;
-  static constexpr double never = std::numeric_limits<double>::infinity();
+  static constexpr double never = numeric_limits<double>::infinity();
 
   struct Level {
     double* time;  // s, padded to whole games
@@ -118,7 +118,7 @@ class Tournament {
     for (size_t k = game * width; k < (game + 1) * width; ++k) {
       if (level.time[k] > until) continue;
       if (l == 0)
-        due.push_back({level.time[k], static_cast<uint32_t>(k)});
+        due.push_back({level.time[k], uint32_t(k)});
       else if (l == low)
         due.push_back({level.time[k], level.winner[k]});
       else
@@ -139,24 +139,24 @@ class Tournament {
     time = _mm_cvtsd_f64(first);
     unsigned ties = 0;
     const __m128d limit = _mm_add_pd(first, _mm_set1_pd(close_));
-    for (int k = 0; k < 4; ++k) ties |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(pair[k], limit))) << (2 * k);
+    for (int k = 0; k < 4; ++k) ties |= unsigned(_mm_movemask_pd(_mm_cmple_pd(pair[k], limit))) << (2 * k);
 #else
     time = *std::min_element(t, t + width);
     unsigned ties = 0;
-    for (unsigned k = 0; k < width; ++k) ties |= static_cast<unsigned>(t[k] <= time + close_) << k;
+    for (unsigned k = 0; k < width; ++k) ties |= unsigned(t[k] <= time + close_) << k;
 #endif
 
     if (time == never) {
       winner = none;
     } else if ((ties & (ties - 1)) == 0) [[likely]] {
-      winner = entry(l, game * width + static_cast<unsigned>(std::countr_zero(ties)));
+      winner = entry(l, game * width + unsigned(std::countr_zero(ties)));
     } else {
       winner = first_of(ties, l, game, time);
     }
   }
 
   uint32_t entry(size_t l, size_t place) const {
-    return l == 0 ? static_cast<uint32_t>(place) : levels_[l].winner[place];
+    return l == 0 ? uint32_t(place) : levels_[l].winner[place];
   }
 
   /// Of several entries of a game with this time or close to it, the one that comes before all others.
@@ -164,7 +164,7 @@ class Tournament {
     note_close(time);
     uint32_t winner = none;
     for (; ties != 0; ties &= ties - 1) {
-      const size_t place = game * width + static_cast<unsigned>(std::countr_zero(ties));
+      const size_t place = game * width + unsigned(std::countr_zero(ties));
       if (levels_[l].time[place] != time) continue;
       const uint32_t other = entry(l, place);
       if (winner == none || before_(other, winner)) winner = other;

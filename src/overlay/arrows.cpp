@@ -30,8 +30,8 @@ double greatest_force(const Scene& scene) {
   double greatest = 0, heaviest = 0;
   for (Entity i = 0; i < world.body_count(); ++i) {
     const Vec3 a = free_acceleration(world, i, 0, scene.initial.position[i], scene.initial.velocity[i]);
-    greatest = std::max(greatest, world.mass[i] * a.norm());
-    heaviest = std::max(heaviest, world.mass[i]);
+    greatest = max(greatest, world.mass[i] * a.norm());
+    heaviest = max(heaviest, world.mass[i]);
   }
   return greatest > 0 ? greatest : heaviest * usual_gravity;
 }
@@ -40,7 +40,7 @@ double greatest_force(const Scene& scene) {
 double way_out(const Volume& volume, const Vec3& along) {
   const auto through = [&](int axis) {
     const double part = std::abs(along[axis]);
-    return part > 0 ? volume.half[axis] / part : std::numeric_limits<double>::infinity();
+    return part > 0 ? volume.half[axis] / part : numeric_limits<double>::infinity();
   };
 
   switch (volume.shape) {
@@ -48,10 +48,10 @@ double way_out(const Volume& volume, const Vec3& along) {
       return volume.half.x();
     case Shape::cylinder: {
       const double across = std::hypot(along.x(), along.z());
-      return across > 0 ? std::min(volume.half.x() / across, through(1)) : through(1);
+      return across > 0 ? min(volume.half.x() / across, through(1)) : through(1);
     }
     case Shape::box:
-      return std::min({through(0), through(1), through(2)});
+      return min({through(0), through(1), through(2)});
   }
   return 0;
 }
@@ -59,7 +59,7 @@ double way_out(const Volume& volume, const Vec3& along) {
 void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& color, vector<Stroke>& strokes) {
   const double length = arrow.norm();
   // A short arrow is a head alone, in proportion.
-  const double head = std::min(head_length * size, length), scale = head / (head_length * size);
+  const double head = min(head_length * size, length), scale = head / (head_length * size);
   const Vec3 neck = start + (length - head) / length * arrow;
 
   const auto add = [&](const Vec3& from, const Vec3& to, double from_radius, double to_radius) {
@@ -89,7 +89,7 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
   const double size = median_radius(scene.world);
   if (scene.overlay.velocity_arrows) {
     double greatest = 0;
-    for (Entity i = 0; i < scene.world.body_count(); ++i) greatest = std::max(greatest, expected_speed(scene, i));
+    for (Entity i = 0; i < scene.world.body_count(); ++i) greatest = max(greatest, expected_speed(scene, i));
     scales.push_back({ArrowScale::Kind::velocity, rounded_up(greatest), longest * size, size});
   }
   // Without gravity and forces no arrow is ever drawn.

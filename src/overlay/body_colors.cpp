@@ -11,7 +11,7 @@ namespace carom {
 Color ColorRule::color_of(double value) const {
   if (coloring.by != ColorQuantity::group) return color_in(coloring.map, (value - scale.min) / (scale.max - scale.min));
   // One name alone has the middle of the map.
-  const auto last = static_cast<double>(names.size()) - 1;
+  const auto last = double(names.size()) - 1;
   return color_in(coloring.map, last > 0 ? value / last : 0.5);
 }
 
@@ -43,10 +43,10 @@ BodyColors::BodyColors(const Scene& scene) : scene_(scene), rules_(color_rules(s
     const auto rule =
         std::ranges::find_if(rules_, [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
         rules_.begin();
-    std::fill_n(rule_.begin() + range.first, range.count, static_cast<uint32_t>(rule));
+    std::fill_n(rule_.begin() + range.first, range.count, uint32_t(rule));
 
-    uint32_t& name = names[static_cast<size_t>(rule)];
-    if (rules_[static_cast<size_t>(rule)].names[name] != range.thing()) ++name;
+    uint32_t& name = names[size_t(rule)];
+    if (rules_[size_t(rule)].names[name] != range.thing()) ++name;
     std::fill_n(name_.begin() + range.first, range.count, name);
   }
 }
@@ -69,7 +69,7 @@ Color BodyColors::of(Entity body, double time, const Vec3& velocity, const State
     case ColorQuantity::kinetic:
       return rule.color_of(0.5 * mass * velocity.squaredNorm());
     case ColorQuantity::collisions:
-      return rule.color_of(static_cast<double>(history.collisions_of(body, time)));
+      return rule.color_of(double(history.collisions_of(body, time)));
 
     case ColorQuantity::mass:
       return rule.color_of(mass);

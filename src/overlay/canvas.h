@@ -37,9 +37,7 @@ class Canvas {
     uint8_t opacity = 0;
   };
 
-  Pixel& pixel(int x, int y) {
-    return pixels_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
-  }
+  Pixel& pixel(int x, int y) { return pixels_[size_t(y) * size_t(width_) + size_t(x)]; }
   static void add(Pixel& pixel, const Bytes& color, int opacity);
 
   int width_, height_;

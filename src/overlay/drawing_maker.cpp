@@ -52,7 +52,7 @@ Drawing DrawingMaker::at(const State& state, const Camera& camera) const {
 vector<float> DrawingMaker::glow(double time) const {
   vector<float> values(scene_.world.body_count());
   for (Entity i = 0; i < values.size(); ++i)
-    values[i] = static_cast<float>(std::max(0.0, 1 - (time - history_.last_collision(i)) / flash_));
+    values[i] = float(max(0.0, 1 - (time - history_.last_collision(i)) / flash_));
   return values;
 }
 

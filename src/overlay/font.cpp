@@ -37,7 +37,7 @@ vector<fs::path> font_folders() {
   if (!home.empty()) folders.push_back(fs::path(home) / ".fonts");
   const string shared = variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share");
   for (size_t i = 0; i <= shared.size();) {
-    const size_t end = std::min(shared.find(':', i), shared.size());
+    const size_t end = min(shared.find(':', i), shared.size());
     if (end > i) folders.push_back(fs::path(shared.substr(i, end - i)) / "fonts");
     i = end + 1;
   }
@@ -61,13 +61,13 @@ vector<char32_t> characters(string_view text) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);
     if (length > 0) codes.push_back(code);
-    i += static_cast<size_t>(std::max(length, 1));
+    i += size_t(max(length, 1));
   }
   return codes;
 }
 
 double pixels(FT_Pos units) {
-  return static_cast<double>(units) / 64;
+  return double(units) / 64;
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ struct Font::Face {
       if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) continue;
       use(face->glyph, x);
       // 16.16
-      x += static_cast<double>(face->glyph->linearHoriAdvance) / 65536;
+      x += double(face->glyph->linearHoriAdvance) / 65536;
       before = glyph;
     }
     return x;
@@ -156,13 +156,13 @@ void Font::draw(string_view text, double x, double y, Coverage& to) const {
 
     // Add its coverage to what is there.
     const FT_Bitmap& bitmap = glyph->bitmap;
-    for (int row = 0; row < static_cast<int>(bitmap.rows); ++row) {
-      for (int column = 0; column < static_cast<int>(bitmap.width); ++column) {
-        const int px = static_cast<int>(whole_x) + glyph->bitmap_left + column;
-        const int py = static_cast<int>(whole_y) - glyph->bitmap_top + row;
+    for (int row = 0; row < int(bitmap.rows); ++row) {
+      for (int column = 0; column < int(bitmap.width); ++column) {
+        const int px = int(whole_x) + glyph->bitmap_left + column;
+        const int py = int(whole_y) - glyph->bitmap_top + row;
         if (px < 0 || py < 0 || px >= to.width || py >= to.height) continue;
         uint8_t& covered = to.at(px, py);
-        covered = static_cast<uint8_t>(std::min(255, covered + bitmap.buffer[row * bitmap.pitch + column]));
+        covered = uint8_t(min(255, covered + bitmap.buffer[row * bitmap.pitch + column]));
       }
     }
   };

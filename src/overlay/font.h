@@ -7,13 +7,9 @@ namespace carom {
 
 /// How much of each pixel is covered, 0 to 255, top row first.
 struct Coverage {
-  Coverage(int w, int h) : width(w), height(h), values(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
-  uint8_t& at(int x, int y) {
-    return values[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
-  }
-  uint8_t at(int x, int y) const {
-    return values[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
-  }
+  Coverage(int w, int h) : width(w), height(h), values(size_t(w) * size_t(h)) {}
+  uint8_t& at(int x, int y) { return values[size_t(y) * size_t(width) + size_t(x)]; }
+  uint8_t at(int x, int y) const { return values[size_t(y) * size_t(width) + size_t(x)]; }
 
   int width, height;  // pixels
   vector<uint8_t> values;

@@ -18,7 +18,7 @@ constexpr double least_gap = 1e-9;
 
 /// x > 0 with sinh(x) / x = q > 1. The start lies above it, and Newton's method then descends to it.
 double inverse_of_sinh_ratio(double q) {
-  double x = std::min(std::sqrt(6 * (q - 1)), 2 * std::log(2 * q) + 1);
+  double x = min(std::sqrt(6 * (q - 1)), 2 * std::log(2 * q) + 1);
   for (int i = 0; i < 100; ++i) {
     const double slope = std::cosh(x) - q;
     const double step = (std::sinh(x) - q * x) / slope;
@@ -46,7 +46,7 @@ vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length, cons
   if (!(ratio > 1)) return {to};
   const double x = inverse_of_sinh_ratio(ratio);
   const double a = width / (2 * x), middle = std::atanh(rise / length), first = middle - x;
-  const double count = std::clamp(std::ceil(2 * x / std::sqrt(8 * error / a)), 1.0, most_strokes);
+  const double count = clamp(std::ceil(2 * x / std::sqrt(8 * error / a)), 1.0, most_strokes);
 
   vector<Vec3> points;
   for (double i = 1; i < count; ++i) {

@@ -65,7 +65,7 @@ void History::record_paths(span<const PathPiece> pieces) {
 }
 
 double History::next_sample() const {
-  return sampler_ ? sampler_->next() : std::numeric_limits<double>::infinity();
+  return sampler_ ? sampler_->next() : numeric_limits<double>::infinity();
 }
 
 void History::sample(const State& state) {
@@ -76,7 +76,7 @@ uint64_t History::collisions_of(Entity body, double time) const {
   if (counts_.empty()) return 0;
   if (recent_.empty()) return counts_[body];
   const vector<double>& times = recent_[body];
-  return counts_[body] - static_cast<uint64_t>(times.end() - std::upper_bound(times.begin(), times.end(), time));
+  return counts_[body] - uint64_t(times.end() - std::upper_bound(times.begin(), times.end(), time));
 }
 
 }  // namespace carom

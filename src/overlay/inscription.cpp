@@ -14,7 +14,7 @@ constexpr double legend_letters = 0.75;                  // of a caption's lette
 constexpr double caption_part = 0.4, legend_part = 0.6;  // of the picture's height
 
 double letters_of(Size size) {
-  return std::max(size.height * letters, 2 * TextBlock::least_size);
+  return max(size.height * letters, 2 * TextBlock::least_size);
 }
 
 bool has_text(const Scene& scene) {
@@ -28,16 +28,13 @@ void check_font(const Scene& scene) {
 }
 
 Inscription::Inscription(const Scene& scene, Size size)
-    : scene_(scene),
-      size_(size),
-      margin_(static_cast<int>(0.4 * letters_of(size))),
-      captioned_(!scene.overlay.caption.empty()) {
+    : scene_(scene), size_(size), margin_(int(0.4 * letters_of(size))), captioned_(!scene.overlay.caption.empty()) {
   const vector<Legend> legends = legends_of(scene);
   if (!captioned_ && legends.empty()) return;
   font_ = make_unique<Font>(find_font());
   if (legends.empty()) return;
   legends_ = make_unique<LegendBlock>(*font_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
-                                      static_cast<int>(legend_part * size.height) - margin_);
+                                      int(legend_part * size.height) - margin_);
   if (legends_->canvas() == nullptr) legends_.reset();
 }
 
@@ -51,7 +48,7 @@ void Inscription::write(const CaptionValues& values, Image& image) {
     if (caption_ == nullptr || text != text_) {
       text_ = std::move(text);
       caption_ = make_unique<TextBlock>(*font_, text_, letters_of(size_), size_.width - 2 * margin_,
-                                        static_cast<int>(caption_part * size_.height) - margin_);
+                                        int(caption_part * size_.height) - margin_);
     }
     if (caption_->canvas() != nullptr) caption_->canvas()->lay_onto(image, margin_, margin_);
   }

@@ -24,7 +24,7 @@ Legend legend_of(const ColorRule& rule) {
   Legend legend;
   legend.map = rule.coloring.map;
   const ColorQuantity by = rule.coloring.by.value_or(ColorQuantity::group);
-  legend.title = titles[static_cast<size_t>(by)];
+  legend.title = titles[size_t(by)];
 
   if (by != ColorQuantity::group) {
     legend.min = number_text(rule.scale.min);
@@ -34,9 +34,9 @@ Legend legend_of(const ColorRule& rule) {
 
   // The names of the bodies, as many as there is room for.
   const size_t count = rule.names.size(), shown = count > most_entries ? most_entries - 1 : count;
-  for (size_t i = 0; i < shown; ++i) legend.entries.push_back({rule.color_of(static_cast<double>(i)), rule.names[i]});
+  for (size_t i = 0; i < shown; ++i) legend.entries.push_back({rule.color_of(double(i)), rule.names[i]});
   if (shown < count)
-    legend.entries.push_back({rule.color_of(static_cast<double>(count - 1)), fmt::format("{} more", count - shown)});
+    legend.entries.push_back({rule.color_of(double(count - 1)), fmt::format("{} more", count - shown)});
   return legend;
 }
 

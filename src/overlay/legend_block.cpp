@@ -44,22 +44,20 @@ class LegendPen {
   }
 
   void write(const string& text, double x) {
-    width_ = std::max(width_, x + font_.width(text));
+    width_ = max(width_, x + font_.width(text));
     if (coverage_) font_.draw(text, x, y_ + font_.ascent(), *coverage_);
   }
 
   /// The strip, and below it the numbers of its ends.
   void strip(const Legend& legend) {
     const double numbers = font_.width(legend.min) + font_.width(legend.max) + font_.size();
-    const PixelBox box{static_cast<int>(left_), static_cast<int>(std::ceil(y_)),
-                       static_cast<int>(std::max(strip_width * font_.size(), numbers)),
-                       std::max(2, static_cast<int>(strip_height * font_.size()))};
-    width_ = std::max(width_, static_cast<double>(box.left + box.width));
+    const PixelBox box{int(left_), int(std::ceil(y_)), int(max(strip_width * font_.size(), numbers)),
+                       max(2, int(strip_height * font_.size()))};
+    width_ = max(width_, double(box.left + box.width));
 
     if (canvas_ != nullptr)
       for (int x = 0; x < box.width; ++x)
-        fill({box.left + x, box.top, 1, box.height},
-             color_in(legend.map, static_cast<double>(x) / std::max(box.width - 1, 1)));
+        fill({box.left + x, box.top, 1, box.height}, color_in(legend.map, double(x) / max(box.width - 1, 1)));
     if (strips_ != nullptr) strips_->push_back(box);
 
     // The numbers below its ends.
@@ -70,10 +68,9 @@ class LegendPen {
   }
 
   void item(const Legend::Entry& entry) {
-    const int side = std::max(2, static_cast<int>(swatch * font_.size()));
+    const int side = max(2, int(swatch * font_.size()));
     const double middle = y_ + (font_.ascent() + font_.descent()) / 2;
-    if (canvas_ != nullptr)
-      fill({static_cast<int>(left_), static_cast<int>(std::max(0.0, middle - 0.5 * side)), side, side}, entry.color);
+    if (canvas_ != nullptr) fill({int(left_), int(max(0.0, middle - 0.5 * side)), side, side}, entry.color);
     line(entry.name, 1.4 * side);
   }
 
@@ -99,8 +96,8 @@ LegendBlock::LegendBlock(Font& font, const vector<Legend>& legends, double size,
 
     LegendPen measure(font, padding, nullptr, nullptr);
     measure.add(legends);
-    const int needed_width = static_cast<int>(std::ceil(measure.width() + padding));
-    const int needed_height = static_cast<int>(std::ceil(measure.height() + padding));
+    const int needed_width = int(std::ceil(measure.width() + padding));
+    const int needed_height = int(std::ceil(measure.height() + padding));
     if (needed_width > width || needed_height > height) continue;
 
     canvas_ = make_unique<Canvas>(needed_width, needed_height);

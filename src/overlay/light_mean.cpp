@@ -16,8 +16,7 @@ constexpr double most = 65535;
 const array<uint16_t, 256>& light_of_bytes() {
   static const auto table = [] {
     array<uint16_t, 256> values{};
-    for (size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<uint16_t>(std::lround(most * light_of_srgb(static_cast<double>(i) / 255)));
+    for (size_t i = 0; i < values.size(); ++i) values[i] = uint16_t(std::lround(most * light_of_srgb(double(i) / 255)));
     return values;
   }();
   return table;
@@ -26,8 +25,7 @@ const array<uint16_t, 256>& light_of_bytes() {
 const vector<uint8_t>& bytes_of_light() {
   static const auto table = [] {
     vector<uint8_t> values(65536);
-    for (size_t i = 0; i < values.size(); ++i)
-      values[i] = static_cast<uint8_t>(std::lround(255 * srgb_of_light(static_cast<double>(i) / most)));
+    for (size_t i = 0; i < values.size(); ++i) values[i] = uint8_t(std::lround(255 * srgb_of_light(double(i) / most)));
     return values;
   }();
   return table;
@@ -58,7 +56,7 @@ void LightMean::add(const Image& image) {
 }
 
 const Image& LightMean::take() {
-  const auto count = static_cast<uint32_t>(std::max(count_, 1));
+  const auto count = uint32_t(max(count_, 1));
   const vector<uint8_t>& bytes = bytes_of_light();
   mean_.pixels.resize(sums_.size());
 
@@ -66,10 +64,9 @@ const Image& LightMean::take() {
     for (size_t i = 0; i < sums_.size(); ++i) mean_.pixels[i] = bytes[(sums_[i] + count / 2) / count];
   } else {
     for (size_t i = 0; i < sums_.size(); i += 4) {
-      const double whole = std::max(sums_[i + 3] / 255.0, 1e-9);
-      for (size_t c = 0; c < 3; ++c)
-        mean_.pixels[i + c] = bytes[static_cast<size_t>(std::min(most, std::round(sums_[i + c] / whole)))];
-      mean_.pixels[i + 3] = static_cast<uint8_t>((sums_[i + 3] + count / 2) / count);
+      const double whole = max(sums_[i + 3] / 255.0, 1e-9);
+      for (size_t c = 0; c < 3; ++c) mean_.pixels[i + c] = bytes[size_t(min(most, std::round(sums_[i + c] / whole)))];
+      mean_.pixels[i + 3] = uint8_t((sums_[i + 3] + count / 2) / count);
     }
   }
 

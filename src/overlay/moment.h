@@ -7,6 +7,7 @@
 #include "physics/body_now.h"
 #include "render/eye.h"
 #include "scene/scene.h"
+#include "std.h"
 
 namespace carom {
 
@@ -18,7 +19,7 @@ struct Moment {
   Eye eye;
 
   double pixel_at(const Vec3& x) const {  // m, the side of a pixel at a point in front of the camera
-    return eye.pixel * std::max(eye.point(x).z(), eye.camera.near);
+    return eye.pixel * max(eye.point(x).z(), eye.camera.near);
   }
   double radius_of(Entity body) const {  // m
     return radius_now(scene.world, state, body);

@@ -24,7 +24,7 @@ Projected projected(const Eye& eye, const Vec3& x) {
 
 /// Whether a disc that moves from `a` to `b` touches the picture on this axis.
 bool meets(double a, double b, double radius, double half) {
-  return std::min(a, b) - radius <= half && std::max(a, b) + radius >= -half;
+  return min(a, b) - radius <= half && max(a, b) + radius >= -half;
 }
 
 }  // namespace
@@ -32,21 +32,21 @@ bool meets(double a, double b, double radius, double half) {
 int exposures_of(const Scene& scene, const State& state, double open, const Eye& opening, const Eye& closing) {
   double most = 1;
   for (size_t i = 0; i < state.position.size(); ++i) {
-    if (is_gone(state, static_cast<Entity>(i))) continue;
+    if (is_gone(state, Entity(i))) continue;
     const Vec3 &x = state.position[i], &v = state.velocity[i];
     const Projected from = projected(opening, x), to = projected(closing, x + open * v);
-    const double nearest = std::min(from.z, to.z);
+    const double nearest = min(from.z, to.z);
     if (!(nearest > opening.camera.near)) continue;
-    const double radius = radius_now(scene.world, state, static_cast<Entity>(i)) / (nearest * opening.pixel);
+    const double radius = radius_now(scene.world, state, Entity(i)) / (nearest * opening.pixel);
     if (meets(from.x, to.x, radius, 0.5 * opening.size.width) && meets(from.y, to.y, radius, 0.5 * opening.size.height))
-      most = std::max(most, std::hypot(to.x - from.x, to.y - from.y));
+      most = max(most, std::hypot(to.x - from.x, to.y - from.y));
   }
-  return static_cast<int>(std::min(std::ceil(most), static_cast<double>(most_exposures)));
+  return int(min(std::ceil(most), double(most_exposures)));
 }
 
 void Shutter::aim(double picture) {
   if (picture == picture_) return;
-  from_ = std::max(picture_, picture - open_);
+  from_ = max(picture_, picture - open_);
   picture_ = picture;
   opened_ = !(from_ < picture);
   count_ = done_ = 0;
@@ -60,7 +60,7 @@ void Shutter::open_for(int count) {
 
 double Shutter::next() const {
   if (!opened_) return from_;
-  if (done_ + 1 >= count_) return std::numeric_limits<double>::infinity();
+  if (done_ + 1 >= count_) return numeric_limits<double>::infinity();
   // From the right, so that the picture's own time is one of the instants.
   return picture_ - (picture_ - from_) * (count_ - 1 - done_) / count_;
 }

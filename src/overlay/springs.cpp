@@ -30,7 +30,7 @@ Eigen::Quaterniond frame_along(const Vec3& along) {
 
 double turns_of(const Spring& spring, double coil, double start_length) {
   const double length = spring.rest_length > 0 ? spring.rest_length : start_length;
-  return std::clamp(std::round(length / (pitch * coil)), fewest_turns, most_turns);
+  return clamp(std::round(length / (pitch * coil)), fewest_turns, most_turns);
 }
 
 void add_spring(const Moment& moment, const Spring& spring, Entity body, vector<Stroke>& strokes) {
@@ -41,12 +41,12 @@ void add_spring(const Moment& moment, const Spring& spring, Entity body, vector<
   const Vec3 along = whole / length;
   const double coil = coil_radius * reach, from = lead * length, until = length - reach - lead * length;
   Wire wire(thickness * coil, spring.anchor, wire_steel, strokes);
-  const double error = chord_error * std::min(moment.pixel_at(spring.anchor), moment.pixel_at(end));
+  const double error = chord_error * min(moment.pixel_at(spring.anchor), moment.pixel_at(end));
 
   // The turns, unless they are too small to be seen.
   if (until > from && coil > 2 * error) {
     const double turns = turns_of(spring, coil, (moment.scene.initial.position[body] - spring.anchor).norm());
-    const double chords = std::clamp(std::ceil(std::numbers::pi / std::acos(1 - error / coil)), 6.0, most_chords);
+    const double chords = clamp(std::ceil(std::numbers::pi / std::acos(1 - error / coil)), 6.0, most_chords);
     const Eigen::Quaterniond frame = frame_along(along);
     wire.go_to(spring.anchor + from * along);
 

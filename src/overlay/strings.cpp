@@ -18,12 +18,12 @@ void add_string(const Moment& moment, const String& string, vector<Stroke>& stro
   const Vec3 from = moment.state.position[string.body];
   const Vec3 to = tied ? moment.state.position[string.other] : string.anchor;
   double reach = moment.radius_of(string.body);
-  if (tied) reach = std::min(reach, moment.radius_of(string.other));
+  if (tied) reach = min(reach, moment.radius_of(string.other));
   Wire wire((string.rod ? rod_radius : string_radius) * reach, from, string.rod ? wire_steel : hemp, strokes);
   if (string.rod) return wire.go_to(to);
   const Vec3& gravity = moment.scene.world.gravity;
   const Vec3 down = gravity.isZero(0) ? Vec3(Vec3::Zero()) : Vec3(gravity.stableNormalized());
-  const double error = chord_error * std::min(moment.pixel_at(from), moment.pixel_at(to));
+  const double error = chord_error * min(moment.pixel_at(from), moment.pixel_at(to));
   for (const Vec3& point : hanging_curve(from, to, string.length, down, error)) wire.go_to(point);
 }
 

@@ -16,11 +16,10 @@ const Color white{1, 1, 1};
 
 unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double padding) {
   double width = 0;
-  for (const string& line : lines) width = std::max(width, font.width(line));
-  const double height = font.line() * static_cast<double>(lines.size() - 1) + font.ascent() + font.descent();
+  for (const string& line : lines) width = max(width, font.width(line));
+  const double height = font.line() * double(lines.size() - 1) + font.ascent() + font.descent();
 
-  auto canvas = make_unique<Canvas>(static_cast<int>(std::ceil(width + 2 * padding)),
-                                    static_cast<int>(std::ceil(height + 2 * padding)));
+  auto canvas = make_unique<Canvas>(int(std::ceil(width + 2 * padding)), int(std::ceil(height + 2 * padding)));
   Coverage coverage(canvas->width(), canvas->height());
   double y = padding + font.ascent();
   for (const string& line : lines) {
@@ -39,8 +38,8 @@ WrappedText wrapped(const Font& font, const string& text, double width) {
   WrappedText result;
   string line;
   for (size_t i = 0; i < text.size();) {
-    const size_t word = std::min(text.find_first_not_of(' ', i), text.size());
-    const size_t end = std::min(text.find(' ', word), text.size());
+    const size_t word = min(text.find_first_not_of(' ', i), text.size());
+    const size_t end = min(text.find(' ', word), text.size());
     if (word == end) break;
     const string longer = (line.empty() ? "" : line + text.substr(i, word - i)) + text.substr(word, end - word);
 
@@ -64,7 +63,7 @@ string shortened(const Font& font, const string& text, double width) {
   string best;
   for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
-    i += static_cast<size_t>(std::max(utf8_length(text, i, code), 1));
+    i += size_t(max(utf8_length(text, i, code), 1));
     string shorter = text.substr(0, i) + ellipsis;
     if (font.width(shorter) > width) break;
     best = std::move(shorter);
@@ -73,8 +72,8 @@ string shortened(const Font& font, const string& text, double width) {
 }
 
 TextBlock::TextBlock(Font& font, const string& text, double size, int width, int height)
-    : size_(std::max(size, least_size)) {
-  for (;; size_ = std::max(least_size, shrink * size_)) {
+    : size_(max(size, least_size)) {
+  for (;; size_ = max(least_size, shrink * size_)) {
     font.resize(size_);
     const double padding = padding_of(size_), space = width - 2 * padding - 1;
     const double one = font.ascent() + font.descent();
@@ -83,14 +82,14 @@ TextBlock::TextBlock(Font& font, const string& text, double size, int width, int
     WrappedText text_lines = wrapped(font, text, space);
     vector<string>& lines = text_lines.lines;
     if (lines.empty()) return;
-    const bool fits = text_lines.fits && static_cast<double>(lines.size()) <= most;
+    const bool fits = text_lines.fits && double(lines.size()) <= most;
     if (!fits && size_ > least_size) continue;
 
     // At the least size the text is cut off.
     if (!fits) {
       if (!(most >= 1)) return;
-      if (static_cast<double>(lines.size()) > most) {
-        lines.resize(static_cast<size_t>(most));
+      if (double(lines.size()) > most) {
+        lines.resize(size_t(most));
         lines.back() += " \u2026";
       }
       for (string& line : lines) line = shortened(font, line, space);

@@ -86,14 +86,14 @@ void TrackSampler::sample(const State& state) {
     }
 
     const double rate = force_rate(world_, body, now.x, now.v);
-    if (rate > 0) step = std::min(step, 1 / (4 * rate));
+    if (rate > 0) step = min(step, 1 / (4 * rate));
     known = std::move(now);
   }
 
   if (!own) return;
   started_ = true;
   time_ = state.time;
-  next_ = time_ + std::max(step, shortest_part * seconds_);
+  next_ = time_ + max(step, shortest_part * seconds_);
 }
 
 }  // namespace carom

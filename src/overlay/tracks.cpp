@@ -37,7 +37,7 @@ void Tracks::add(Entity body, const TrackPiece& piece) {
 
 void Tracks::end(Entity body, double time) {
   vector<TrackPiece>& pieces = pieces_[body];
-  if (!pieces.empty()) pieces.back().until = std::min(pieces.back().until, time);
+  if (!pieces.empty()) pieces.back().until = min(pieces.back().until, time);
 }
 
 void Tracks::forget(Entity body, double before) {

@@ -13,13 +13,13 @@ namespace carom {
 /// displacement.
 struct TrackPiece {
   double from = 0;  // s
-  double until = std::numeric_limits<double>::infinity();
+  double until = numeric_limits<double>::infinity();
   DoubleDouble start{0, 0};  // s
   Vec3 x = Vec3::Zero();     // m, at start
   Vec3 v = Vec3::Zero();     // m/s, at start
   Vec3 a = Vec3::Zero();     // m/s^2, at start
   Vec3 jerk = Vec3::Zero();  // m/s^3
-  std::shared_ptr<const PolynomialPath> curve{};
+  shared_ptr<const PolynomialPath> curve{};
 
   double since(double time) const { return (time - start.hi) - start.lo; }  // s
   Vec3 position(double time) const {

@@ -28,7 +28,7 @@ class TrailMaker {
   void add(Entity body) {
     radius_ = trails_.width ? *trails_.width / 2 : moment_.scene.world.radius[body] / 4;
     for (const TrackPiece& piece : moment_.history.tracks()->of(body)) {
-      const double from = std::max(piece.from, now_ - trails_.seconds), until = std::min(piece.until, now_);
+      const double from = max(piece.from, now_ - trails_.seconds), until = min(piece.until, now_);
       if (from < until) add(body, piece, from, until);
     }
     finish(body);
@@ -39,10 +39,10 @@ class TrailMaker {
   double chords(const TrackPiece& piece, double from, double until) const {
     double bend = piece.acceleration(from).norm(), pixel = moment_.pixel_at(piece.position(from));
     for (const double time : {(from + until) / 2, until}) {
-      bend = std::max(bend, piece.acceleration(time).norm());
-      pixel = std::min(pixel, moment_.pixel_at(piece.position(time)));
+      bend = max(bend, piece.acceleration(time).norm());
+      pixel = min(pixel, moment_.pixel_at(piece.position(time)));
     }
-    return std::clamp(std::ceil((until - from) * std::sqrt(bend / (8 * error * pixel))), 1.0, most_points);
+    return clamp(std::ceil((until - from) * std::sqrt(bend / (8 * error * pixel))), 1.0, most_points);
   }
 
   void add(Entity body, const TrackPiece& piece, double from, double until) {
@@ -85,7 +85,7 @@ class TrailMaker {
     kept_ = last_;
   }
 
-  double opacity(double time) const { return std::clamp(1 - (now_ - time) / trails_.seconds, 0.0, 1.0); }
+  double opacity(double time) const { return clamp(1 - (now_ - time) / trails_.seconds, 0.0, 1.0); }
 
   const Moment& moment_;
   const Trails& trails_;

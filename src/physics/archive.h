@@ -44,7 +44,7 @@ class ByteWriter {
   }
   /// Takes the shared value of this number. Returns whether it is new, so that its contents follow.
   template <typename T>
-  bool take_shared(const std::shared_ptr<T>& shared, uint64_t number) {
+  bool take_shared(const shared_ptr<T>& shared, uint64_t number) {
     return number > 0 && numbers_.try_emplace(shared.get(), number).second;
   }
 
@@ -77,7 +77,7 @@ class ByteReader {
 
   uint64_t number_of(const void* /*shared*/) const { return 0; }
   template <typename T>
-  bool take_shared(std::shared_ptr<T>& shared, uint64_t number) {
+  bool take_shared(shared_ptr<T>& shared, uint64_t number) {
     require(number <= known_.size() + 1);
     if (number <= known_.size()) {
       shared = number == 0 ? nullptr : std::static_pointer_cast<T>(known_[number - 1]);
@@ -85,9 +85,9 @@ class ByteReader {
     }
 
     if constexpr (std::is_constructible_v<T, const World&>)
-      shared = std::make_shared<T>(world_);
+      shared = make_shared<T>(world_);
     else
-      shared = std::make_shared<T>();
+      shared = make_shared<T>();
     known_.push_back(shared);
     return true;
   }
@@ -95,7 +95,7 @@ class ByteReader {
  private:
   string_view left_;
   const World& world_;
-  vector<std::shared_ptr<void>> known_;  // shared values, by number
+  vector<shared_ptr<void>> known_;  // shared values, by number
 };
 
 template <typename Bytes>
@@ -192,7 +192,7 @@ class StateArchive : public Bytes {
   }
   /// Values that several share are written once.
   template <typename T>
-  void one(std::shared_ptr<T>& value) {
+  void one(shared_ptr<T>& value) {
     auto shared = std::const_pointer_cast<std::remove_const_t<T>>(value);
     uint64_t number = Bytes::number_of(shared.get());
     one(number);

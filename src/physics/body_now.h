@@ -35,7 +35,7 @@ inline Volume volume_now(const World& world, const State& state, Entity body) {
 inline double median_radius(const World& world) {
   vector<double> radii = world.radius;
   if (radii.empty()) return 0;
-  const auto middle = radii.begin() + static_cast<ptrdiff_t>(radii.size() / 2);
+  const auto middle = radii.begin() + ptrdiff_t(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   return *middle;
 }

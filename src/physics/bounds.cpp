@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -12,21 +13,21 @@ namespace {
 
 double smallest_of(const Volume& volume) {
   if (volume.shape == Shape::sphere) return volume.half.x();
-  if (volume.shape == Shape::cylinder) return std::min(volume.half.x(), 2 * volume.half.y());
+  if (volume.shape == Shape::cylinder) return min(volume.half.x(), 2 * volume.half.y());
   return 2 * volume.half.minCoeff();
 }
 
 }  // namespace
 
 double smallest_size(const World& world) {
-  double smallest = std::numeric_limits<double>::infinity();
+  double smallest = numeric_limits<double>::infinity();
   if (world.volume.empty()) {
-    for (const double radius : world.radius) smallest = std::min(smallest, radius);
+    for (const double radius : world.radius) smallest = min(smallest, radius);
   } else {
-    for (const Volume& volume : world.volume) smallest = std::min(smallest, smallest_of(volume));
+    for (const Volume& volume : world.volume) smallest = min(smallest, smallest_of(volume));
   }
-  for (const Obstacle& obstacle : world.obstacles) smallest = std::min(smallest, smallest_of(obstacle.volume));
-  for (const Wall& wall : world.walls) smallest = std::min({smallest, 2 * wall.half_width, 2 * wall.half_height});
+  for (const Obstacle& obstacle : world.obstacles) smallest = min(smallest, smallest_of(obstacle.volume));
+  for (const Wall& wall : world.walls) smallest = min({smallest, 2 * wall.half_width, 2 * wall.half_height});
   return smallest;
 }
 

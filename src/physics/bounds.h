@@ -22,8 +22,8 @@ inline constexpr double largest_acceleration = 1e30;
 double smallest_size(const World& world);
 
 struct Bounds {
-  double place = std::numeric_limits<double>::infinity();  // m, of each coordinate
-  double speed = largest_speed;                            // m/s
+  double place = numeric_limits<double>::infinity();  // m, of each coordinate
+  double speed = largest_speed;                       // m/s
 
   /// Whether a body's position (m) and velocity (m/s) are within the bounds. A number that is not finite never is.
   bool hold(const Vec3& x, const Vec3& v) const {

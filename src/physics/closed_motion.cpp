@@ -110,7 +110,7 @@ double ClosedMotion::longest_step(const Point& there, double room) const {
     const bool turns = 2 * turn > swing->fade;
     // An upper bound of the speed from there on, m/s.
     const double left = there.velocity.norm() + there.acceleration.norm() / turn;
-    return turns && left > room * turn ? 1 / turn : std::numeric_limits<double>::infinity();
+    return turns && left > room * turn ? 1 / turn : numeric_limits<double>::infinity();
   }
   return step_within(there.place.norm(), there.velocity.norm(), there.acceleration.norm());
 }

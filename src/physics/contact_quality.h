@@ -30,7 +30,7 @@ inline constexpr array<ContactQuality, 6> contact_qualities{{
 }};
 
 constexpr const ContactQuality& quality_of(QualityLevel level) {
-  return contact_qualities[static_cast<size_t>(level)];
+  return contact_qualities[size_t(level)];
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 
 #include "physics/entity.h"
 #include "physics/quantity.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,9 +20,9 @@ struct WatchedQuantity {
 /// The extreme value in the quantity's unit, and the first time at which the quantity has it but for rounding (s). NaN:
 /// there is none.
 struct Extreme {
-  double value = std::numeric_limits<double>::quiet_NaN();
-  double time = std::numeric_limits<double>::quiet_NaN();
-  double then = std::numeric_limits<double>::quiet_NaN();  // the value at that time
+  double value = numeric_limits<double>::quiet_NaN();
+  double time = numeric_limits<double>::quiet_NaN();
+  double then = numeric_limits<double>::quiet_NaN();  // the value at that time
 
   /// Takes the value at a time (s) if it is beyond the extreme in this direction, 1 or -1. Only one that is beyond by
   /// more than `rounding` has a later time.

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "std.h"
+
 namespace carom {
 
 Fading fading(double z) {
@@ -14,7 +16,7 @@ Fading fading(double z) {
   constexpr int terms = 13;
 
   // The series, for an argument of 1/2 at most.
-  double part = std::min(z, all);
+  double part = min(z, all);
   int doublings = 0;
   for (; part > 0.5; part *= 0.5) ++doublings;
   double third = 0;

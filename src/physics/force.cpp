@@ -9,13 +9,14 @@
 
 #include "physics/closed_motion.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
 namespace {
 
 bool acts_for_ever(const Force& force) {
-  return force.from == 0 && force.until == std::numeric_limits<double>::infinity();
+  return force.from == 0 && force.until == numeric_limits<double>::infinity();
 }
 
 /// Whether a force of which this is true acts on a body at `time` (s).
@@ -59,11 +60,11 @@ double potential(const World& world, const Force& force, Entity body, const Vec3
 }
 
 double next_switch(const World& world, Entity body, double time) {
-  double next = std::numeric_limits<double>::infinity();
+  double next = numeric_limits<double>::infinity();
   for (const Force& force : world.forces) {
     if (!acts_on(force, body)) continue;
     for (double t : {force.from, force.until})
-      if (t > time) next = std::min(next, t);
+      if (t > time) next = min(next, t);
   }
   return next;
 }
@@ -112,9 +113,9 @@ const Force* open_force(const World& world, Entity body, double time) {
 const Force* force_without_closed_form(const World& world) {
   if (bending_force(world) == nullptr) return nullptr;
   const bool alike = std::ranges::all_of(world.forces, [](const Force& f) { return f.on.empty(); });
-  const Entity bodies = alike ? std::min<Entity>(1, world.body_count()) : world.body_count();
+  const Entity bodies = alike ? min<Entity>(1, world.body_count()) : world.body_count();
   for (Entity i = 0; i < bodies; ++i)
-    for (double time = 0; time < std::numeric_limits<double>::infinity(); time = next_switch(world, i, time))
+    for (double time = 0; time < numeric_limits<double>::infinity(); time = next_switch(world, i, time))
       if (const Force* open = open_force(world, i, time)) return open;
   return nullptr;
 }
@@ -151,7 +152,7 @@ double force_rate(const World& world, Entity body, const Vec3& x, const Vec3& v)
 double force_reach(const World& world, Entity body, const Vec3& x) {
   double least = everywhere;
   for (const Force& force : world.forces)
-    if (acts_on(force, body)) least = std::min(least, reach_of(force.law, x));
+    if (acts_on(force, body)) least = min(least, reach_of(force.law, x));
   return least;
 }
 
@@ -159,11 +160,11 @@ double left_of_speed(const World& world, Entity body, double time, const Vec3& x
   double depth = 0;  // m^2/s^2
   for (const Force& force : world.forces) {
     if (reach_of(force.law, x) == everywhere || !acts(force, body, time)) continue;
-    depth = std::max(depth, -std::visit([&](const auto& law) { return law.potential({x, v, 1}); }, force.law));
+    depth = max(depth, -std::visit([&](const auto& law) { return law.potential({x, v, 1}); }, force.law));
   }
 
   const double kinetic = 0.5 * v.squaredNorm();
-  return depth > 0 && kinetic > 0 ? std::min(std::abs(kinetic - depth) / kinetic, 1.0) : 1;
+  return depth > 0 && kinetic > 0 ? min(std::abs(kinetic - depth) / kinetic, 1.0) : 1;
 }
 
 ForceJacobian force_jacobian(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
@@ -178,8 +179,8 @@ ForceJacobian force_jacobian(const World& world, Entity body, double time, const
 double default_step(const World& world, const State& initial) {
   double rate = 0;
   for (Entity i = 0; i < world.body_count(); ++i)
-    rate = std::max(rate, force_rate(world, i, initial.position[i], initial.velocity[i]));
-  return std::min(0.001, 0.005 / rate);
+    rate = max(rate, force_rate(world, i, initial.position[i], initial.velocity[i]));
+  return min(0.001, 0.005 / rate);
 }
 
 }  // namespace carom

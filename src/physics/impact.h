@@ -6,6 +6,7 @@
 #include "numerics/vec3.h"
 #include "physics/collision.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -23,7 +24,7 @@ inline double impact_loss(double m1, double m2, double approach, double separati
 
 /// Mass (kg); infinite for fixed things.
 inline double impact_mass(const World& world, Entity e) {
-  return world.is_body(e) ? world.mass[e] : std::numeric_limits<double>::infinity();
+  return world.is_body(e) ? world.mass[e] : numeric_limits<double>::infinity();
 }
 
 /// What an impact on this thing is.

@@ -20,7 +20,7 @@ namespace carom {
 namespace {
 
 constexpr size_t nodes = 7, axes = 3, unknowns = nodes * axes;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = numeric_limits<double>::infinity();
 
 constexpr int most_passes = 12;
 // The allowed error of the stages, as a share of the step's allowed error.
@@ -85,7 +85,7 @@ struct SevenStages {
     const auto p = legendre<nodes>(c[j]);
     double missed = 0, sign = 1;
     for (size_t n = 0; n < nodes; ++n, sign = -sign) {
-      const double term = static_cast<double>(2 * n + 1) * a[nodes - 1][j] * p[n];
+      const double term = double(2 * n + 1) * a[nodes - 1][j] * p[n];
       missed -= sign * term;
       if (n >= 4) tail[n - 4][j] = term;
     }
@@ -193,14 +193,14 @@ struct ImplicitStep::Newton {
         const double change = b[axes * i + p];
         if (!std::isfinite(change)) return infinity;
         z[i][static_cast<Eigen::Index>(p)] += change;
-        changed = std::max(changed, std::abs(change));
+        changed = max(changed, std::abs(change));
       }
 
     return changed;
   }
 
   static void put(Vector& b, size_t i, const Vec3& value) {
-    std::copy(value.data(), value.data() + axes, b.begin() + static_cast<ptrdiff_t>(axes * i));
+    std::copy(value.data(), value.data() + axes, b.begin() + ptrdiff_t(axes * i));
   }
 
   /// Whether the velocities converge to within `limit` (m/s).
@@ -244,9 +244,9 @@ double ImplicitStep::step(double h, const Vec3& x, const Vec3& v, const Accelera
   Newton newton{h, x, v, acceleration, jacobian, change_, {}};
   if (!newton.factor(j)) return infinity;
   newton.predict(a, j);
-  if (!newton.solve(enough * std::min(velocity, position / h))) return infinity;
-  const double wrong = std::max(error_by_terms(), error_by_start(a, j));
-  return wrong * std::max(1 / velocity, displacement_share * h / position);
+  if (!newton.solve(enough * min(velocity, position / h))) return infinity;
+  const double wrong = max(error_by_terms(), error_by_start(a, j));
+  return wrong * max(1 / velocity, displacement_share * h / position);
 }
 
 /// The error of the velocity (m/s), from the last terms of its polynomial. They fade by a similar factor each, and
@@ -260,10 +260,10 @@ double ImplicitStep::error_by_terms() const {
     size[n] = sum.cwiseAbs().maxCoeff();
   }
 
-  const double last = std::max(size[2], size[3]), before = std::max(size[0], size[1]);
+  const double last = max(size[2], size[3]), before = max(size[0], size[1]);
   if (!(last < before)) return last;
   const double fading = std::sqrt(last / before);
-  return term_share * std::max(size[3], fading * size[2]) * fading;
+  return term_share * max(size[3], fading * size[2]) * fading;
 }
 
 /// The error of the velocity (m/s), from the difference between the polynomial's acceleration and a (m/s^2) at the
@@ -290,7 +290,7 @@ double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const
   double greatest = 0;
   for (const double missed : b) {
     if (!std::isfinite(missed)) return infinity;
-    greatest = std::max(greatest, std::abs(missed));
+    greatest = max(greatest, std::abs(missed));
   }
   return start_share * greatest;
 }
@@ -302,7 +302,7 @@ PolynomialPath ImplicitStep::path() const {
   for (size_t k = 0; k < nodes; ++k) {
     Vec3 sum = Vec3::Zero();
     for (size_t j = 0; j < nodes; ++j) sum += method().power[k][j] * change_[j];
-    path.displacement[k + 1] = length_ / static_cast<double>(k + 2) * sum;
+    path.displacement[k + 1] = length_ / double(k + 2) * sum;
   }
   return path;
 }

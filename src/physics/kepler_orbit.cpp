@@ -210,7 +210,7 @@ double KeplerOrbit::first_guess(const Apsis& from, double time) const {
   // upper bounds.
   const double line = time / from.distance;
   if (from.bend * line * line < 0.5 * from.distance) return line;
-  double s = std::min(line, rough_cube_root(6 * time / from.bend));
+  double s = min(line, rough_cube_root(6 * time / from.bend));
   for (int k = 0; k < 2; ++k) {
     const double third = from.bend * s * s / 6;
     s -= (s * (from.distance + third) - time) / (from.distance + 3 * third);

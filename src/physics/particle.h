@@ -3,11 +3,12 @@
 #include <limits>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
 /// The reach of a force that is smooth everywhere (m).
-inline constexpr double everywhere = std::numeric_limits<double>::infinity();
+inline constexpr double everywhere = numeric_limits<double>::infinity();
 
 struct Particle {
   Vec3 x;       // m

@@ -36,7 +36,7 @@ struct PathPiece {
   DoubleDouble until{0, 0};  // s, the middle of that step
   Vec3 kick = Vec3::Zero();  // m/s^2
   // The displacement since start, until the next piece, and its velocity ahead of the method's. None: a parabola.
-  std::shared_ptr<const PolynomialPath> curve{};
+  shared_ptr<const PolynomialPath> curve{};
   // The body that it has become part of. The pieces of that body give its motion.
   Entity part_of = no_entity;
   bool removed = false;  // it has left the world

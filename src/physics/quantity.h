@@ -20,19 +20,19 @@ inline double quantity_of(Quantity quantity, const Vec3& position, const Vec3& v
     case Quantity::x:
     case Quantity::y:
     case Quantity::z:
-      return position[static_cast<int>(quantity)];
+      return position[int(quantity)];
 
     case Quantity::vx:
     case Quantity::vy:
     case Quantity::vz:
-      return velocity[static_cast<int>(quantity) - static_cast<int>(Quantity::vx)];
+      return velocity[int(quantity) - int(Quantity::vx)];
 
     case Quantity::speed:
       return velocity.norm();
     case Quantity::kinetic:
       return 0.5 * mass * velocity.squaredNorm();
   }
-  return std::numeric_limits<double>::quiet_NaN();
+  return numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace carom

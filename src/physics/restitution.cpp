@@ -15,9 +15,9 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
     case Combine::average:
       return (e1 + e2) / 2;
     case Combine::minimum:
-      return std::min(e1, e2);
+      return min(e1, e2);
     case Combine::maximum:
-      return std::max(e1, e2);
+      return max(e1, e2);
 
     case Combine::product:
       return e1 * e2;

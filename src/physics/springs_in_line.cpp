@@ -8,6 +8,7 @@
 
 #include "physics/force.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 
@@ -71,7 +72,7 @@ Vec3 SpringsInLine::correction(const Vec3& x) const {
 }
 
 double SpringsInLine::arrival(const Vec3& x, const PolynomialPath& path) const {
-  double first = std::numeric_limits<double>::infinity();
+  double first = numeric_limits<double>::infinity();
   for (const OneSpring& spring : springs_) {
     const double start = spring.side * (x - spring.anchor).dot(along_);
     const auto beyond = [&](double t) { return start + spring.side * path.displacement_at(t).dot(along_) < 0; };
@@ -84,7 +85,7 @@ double SpringsInLine::arrival(const Vec3& x, const PolynomialPath& path) const {
       const double middle = 0.5 * (before + after);
       (beyond(middle) ? after : before) = middle;
     }
-    first = std::min(first, after);
+    first = min(first, after);
   }
 
   return first;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "std.h"
+
 namespace carom {
 
 namespace {
@@ -49,7 +51,7 @@ double spectral_radius(const Matrix& of) {
 
 /// The rate at which a mode changes (1/s).
 double rate_of(const LinearMode& mode) {
-  return std::max(std::sqrt(mode.stiffness), mode.damping);
+  return max(std::sqrt(mode.stiffness), mode.damping);
 }
 
 double stable_step(Integrator method, const LinearMode& mode) {
@@ -72,14 +74,13 @@ double growth(Integrator method, const LinearMode& mode, double h) {
 }
 
 double stable_step(Integrator method, const ForceJacobian& slopes, LinearMode& mode) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = numeric_limits<double>::infinity();
   for (const Eigen::Matrix3d* const of : {&slopes.by_position, &slopes.by_velocity}) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(0.5 * (*of + of->transpose()));
     for (int k = 0; k < 3; ++k) {
       // The mode along this axis.
       const Vec3 u = axes.eigenvectors().col(k);
-      const LinearMode along{std::max(-u.dot(slopes.by_position * u), 0.0),
-                             std::max(-u.dot(slopes.by_velocity * u), 0.0)};
+      const LinearMode along{max(-u.dot(slopes.by_position * u), 0.0), max(-u.dot(slopes.by_velocity * u), 0.0)};
 
       if (!(rate_of(along) > 0)) continue;
       const double step = stable_step(method, along);

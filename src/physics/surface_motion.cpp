@@ -44,7 +44,7 @@ vector<MotionLeg> legs_of(span<const MotionWindow> windows) {
     if (window.velocity.isZero(0)) continue;
     if (legs.empty() && window.from > 0) begin(0, Vec3::Zero());
     begin(window.from, window.velocity);
-    if (window.until < std::numeric_limits<double>::infinity()) begin(window.until, Vec3::Zero());
+    if (window.until < numeric_limits<double>::infinity()) begin(window.until, Vec3::Zero());
   }
 
   return legs;

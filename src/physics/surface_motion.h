@@ -12,9 +12,9 @@ namespace carom {
 
 /// A window of time in which a fixed thing moves.
 struct MotionWindow {
-  double from = 0;                                         // s
-  double until = std::numeric_limits<double>::infinity();  // s
-  Vec3 velocity = Vec3(0, 0, 0);                           // m/s
+  double from = 0;                                    // s
+  double until = numeric_limits<double>::infinity();  // s
+  Vec3 velocity = Vec3(0, 0, 0);                      // m/s
 };
 
 /// A time from which on a fixed thing has a constant velocity, which may be zero. It lasts until the next leg starts.

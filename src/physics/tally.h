@@ -24,7 +24,7 @@ struct SharedImpacts {
   uint64_t without_room = 0;  // instants with bodies that had no room to rebound
   double absorbed = 0;        // J, by these; a part of the energy lost
   // When (s) it was so first, for which body, and the two things that it met. NaN: never.
-  double first = std::numeric_limits<double>::quiet_NaN();
+  double first = numeric_limits<double>::quiet_NaN();
   Entity body = no_entity;
   Entity one = no_entity;
   Entity other = no_entity;
@@ -104,8 +104,8 @@ struct Tally {
   uint64_t tautened = 0;  // strings that went taut
   // Inelastic collapses: clusters of bodies with ever more frequent impacts, taken into lasting contact.
   uint64_t collapses = 0;
-  double first_collision = std::numeric_limits<double>::quiet_NaN();  // s, NaN: none
-  double last_collision = std::numeric_limits<double>::quiet_NaN();   // s, NaN: none
+  double first_collision = numeric_limits<double>::quiet_NaN();  // s, NaN: none
+  double last_collision = numeric_limits<double>::quiet_NaN();   // s, NaN: none
   // J, by impacts: those recorded, and those that contact absorbed.
   double energy_lost = 0;
   // J, lost in lasting contact beside impacts (below 0: made). This is the method's own error.

@@ -27,7 +27,7 @@ Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time) 
 bool place_fixed_things(const World& world, double time, World& copy) {
   bool changed = false;
   const auto place = [&](size_t fixed, Vec3& x) {
-    const Entity e = world.body_count() + static_cast<Entity>(fixed);
+    const Entity e = world.body_count() + Entity(fixed);
     if (!world.moves(e)) return;
     const Vec3 there = fixed_position(world, e, {time, 0});
     changed = changed || there != x;

@@ -50,9 +50,9 @@ struct String {
 /// A force in a window of time, on some bodies or on all.
 struct Force {
   ForceLaw law;
-  double from = 0;                                         // s, when it sets in
-  double until = std::numeric_limits<double>::infinity();  // s, when it ceases
-  vector<Entity> on{};                                     // ascending; empty: all bodies
+  double from = 0;                                    // s, when it sets in
+  double until = numeric_limits<double>::infinity();  // s, when it ceases
+  vector<Entity> on{};                                // ascending; empty: all bodies
 };
 
 /// Whether a force acts on a body, at some time and at `time` (s).
@@ -87,9 +87,9 @@ struct World {
   vector<WorldRegion> regions;
   vector<String> strings;
 
-  Entity body_count() const { return static_cast<Entity>(mass.size()); }
-  Entity fixed_count() const { return static_cast<Entity>(planes.size() + walls.size() + obstacles.size()); }
-  Entity entity_count() const { return static_cast<Entity>(strings_from() + strings.size()); }
+  Entity body_count() const { return Entity(mass.size()); }
+  Entity fixed_count() const { return Entity(planes.size() + walls.size() + obstacles.size()); }
+  Entity entity_count() const { return Entity(strings_from() + strings.size()); }
   bool is_body(Entity e) const { return e < body_count(); }
   /// Whether it is a plane, a wall or an obstacle.
   bool is_fixed(Entity e) const { return e >= body_count() && e < strings_from(); }
@@ -101,7 +101,7 @@ struct World {
   const Wall& wall(Entity e) const { return walls[e - walls_from()]; }
   const Obstacle& obstacle(Entity e) const { return obstacles[e - obstacles_from()]; }
   const String& string(Entity e) const { return strings[e - strings_from()]; }
-  Entity string_number(size_t k) const { return static_cast<Entity>(strings_from() + k); }
+  Entity string_number(size_t k) const { return Entity(strings_from() + k); }
   /// The second body of a contact that is named by a body and e: e itself, or the other end of a string. no_entity: the
   /// second thing does not move by forces.
   Entity second_body(Entity e) const { return is_body(e) ? e : is_string(e) ? string(e).other : no_entity; }

@@ -18,7 +18,7 @@ void BallPacks::fill(const Shot& shot, const LightCells& balls, const vector<flo
   uint32_t count = 0;
   for (size_t cell = 0; cell < cells; ++cell) {
     first[cell] = count;
-    count += static_cast<uint32_t>((balls.of(cell).size() + wide - 1) / wide);
+    count += uint32_t((balls.of(cell).size() + wide - 1) / wide);
   }
 
   first.back() = count;
@@ -34,12 +34,12 @@ void BallPacks::fill(const Shot& shot, const LightCells& balls, const vector<flo
       for (size_t i = 0; i < members.size(); ++i) {
         const Solid& s = shot.solids[members[i]];
         to.x[i] = s.center[0], to.y[i] = s.center[1], to.z[i] = s.center[2], to.radius[i] = s.radius;
-        to.solid[i] = static_cast<int32_t>(members[i]);
+        to.solid[i] = int32_t(members[i]);
       }
 
       // The places left over have balls without size.
       for (size_t i = members.size(); i < wide; ++i) to.x[i] = to.y[i] = to.z[i] = to.radius[i] = 0, to.solid[i] = -1;
-      last_place[k] = members.size() == wide ? towards_light[members.back()] : std::numeric_limits<float>::infinity();
+      last_place[k] = members.size() == wide ? towards_light[members.back()] : numeric_limits<float>::infinity();
     }
   }
 }

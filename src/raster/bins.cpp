@@ -13,7 +13,7 @@ namespace {
 /// Tiles, ends excluded.
 PixelBounds in_tiles(const PixelBounds& b) {
   if (b.empty()) return {};
-  const auto tile = [](int pixel) { return static_cast<int16_t>(pixel / tile_side); };
+  const auto tile = [](int pixel) { return int16_t(pixel / tile_side); };
   return {tile(b.left), tile(b.top), tile(b.right - 1 + tile_side), tile(b.bottom - 1 + tile_side)};
 }
 
@@ -29,7 +29,7 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   columns_ = (shot.lens.width + tile_side - 1) / tile_side;
   rows_ = (shot.lens.height + tile_side - 1) / tile_side;
 
-  const auto count = static_cast<uint32_t>(shot.solids.size());
+  const auto count = uint32_t(shot.solids.size());
   tiles_.resize(count);
   around_.resize(count);
   nearest_.resize(count);
@@ -50,11 +50,11 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
   }
   order_.sort(nearest_);
 
-  start_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_) + 1, 0);
+  start_.assign(size_t(columns_) * size_t(rows_) + 1, 0);
   const auto each_tile = [&](uint32_t i, auto visit) {
     const PixelBounds& b = tiles_[i];
     for (int y = b.top; y < b.bottom; ++y)
-      for (int x = b.left; x < b.right; ++x) visit(static_cast<size_t>(y * columns_ + x));
+      for (int x = b.left; x < b.right; ++x) visit(size_t(y * columns_ + x));
   };
 
   for (uint32_t i = 0; i < count; ++i) each_tile(i, [&](size_t tile) { ++start_[tile + 1]; });

@@ -30,7 +30,7 @@ class Bins {
   int count() const { return columns_ * rows_; }
   /// Numbers of solids, from the nearest to the farthest.
   span<const uint32_t> tile(int i) const {
-    const auto k = static_cast<size_t>(i);
+    const auto k = size_t(i);
     return {members_.data() + start_[k], start_[k + 1] - start_[k]};
   }
   const BallAround& around(uint32_t solid) const { return around_[solid]; }

@@ -45,8 +45,8 @@ bool span_on_face(float aside, float ahead, float radius, float& low, float& hig
   }
   const double middle = std::atan2(aside, ahead), half = std::asin(radius / distance), quarter = std::numbers::pi / 4;
   if (middle - half > quarter || middle + half < -quarter) return false;
-  low = static_cast<float>(std::tan(std::max(middle - half, -quarter)));
-  high = static_cast<float>(std::tan(std::min(middle + half, quarter)));
+  low = float(std::tan(std::max(middle - half, -quarter)));
+  high = float(std::tan(std::min(middle + half, quarter)));
   return true;
 }
 
@@ -54,7 +54,7 @@ bool span_on_face(float aside, float ahead, float radius, float& low, float& hig
 
 /// Finds the grid's extent, and how far shadows reach.
 void LightGrid::measure(const Shot& shot) {
-  const float infinity = std::numeric_limits<float>::infinity();
+  const float infinity = numeric_limits<float>::infinity();
   LightExtent& e = extent;
   e.u0 = e.v0 = infinity, e.u1 = e.v1 = -infinity;
 
@@ -70,27 +70,27 @@ void LightGrid::measure(const Shot& shot) {
 
   // In a crowd blurs are narrower.
   const double area = std::max(double{e.u1 - e.u0} * (e.v1 - e.v0), 1e-30);
-  const auto shades = static_cast<float>(std::sqrt(most_shades * area / std::max(covered, 1e-30)));
+  const auto shades = float(std::sqrt(most_shades * area / std::max(covered, 1e-30)));
   widest_blur = std::clamp(shades - 1, narrowest, faintest);
 
   const double width = find_blurs(shot);
   if (shot.lighting.lamps[0].near) {
     e.u0 = e.v0 = -1, e.u1 = e.v1 = 1;
-    e.side = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(shot.solids.size()))), 1, most_cells / 2);
+    e.side = std::clamp(int(std::sqrt(double(shot.solids.size()))), 1, most_cells / 2);
   } else {
     const float widest = *std::ranges::max_element(blur_);
     e.u0 -= widest, e.v0 -= widest, e.u1 += widest, e.v1 += widest;
-    e.side = std::clamp(static_cast<int>(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
+    e.side = std::clamp(int(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
   }
 
-  e.per_u = static_cast<float>(e.side) / std::max(e.u1 - e.u0, 1e-30F);
-  e.per_v = static_cast<float>(e.side) / std::max(e.v1 - e.v0, 1e-30F);
+  e.per_u = float(e.side) / std::max(e.u1 - e.u0, 1e-30F);
+  e.per_v = float(e.side) / std::max(e.v1 - e.v0, 1e-30F);
 }
 
 /// The widest blur of each solid's shadow. Returns the mean of radius and blur, m; without any but walls, the extent.
 double LightGrid::find_blurs(const Shot& shot) {
   const Lamp& key = shot.lighting.lamps[0];
-  float lowest = std::numeric_limits<float>::infinity();
+  float lowest = numeric_limits<float>::infinity();
   for (const Solid& s : shot.solids) lowest = std::min(lowest, dot(key.vector, s.center) - s.radius);
 
   blur_.resize(shot.solids.size());
@@ -125,12 +125,12 @@ void LightGrid::find_rects(const Shot& shot) {
   const LightExtent& e = extent;
 
   const auto at = [&](float x, float origin, float per) {
-    return static_cast<int16_t>(std::clamp((x - origin) * per, 0.0F, static_cast<float>(e.side - 1)));
+    return int16_t(std::clamp((x - origin) * per, 0.0F, float(e.side - 1)));
   };
 
   const auto add = [&](int face, float a0, float a1, float b0, float b1) {
-    rects_.push_back({static_cast<int16_t>(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u), at(b0, e.v0, e.per_v),
-                      at(b1, e.v0, e.per_v)});
+    rects_.push_back(
+        {int16_t(face), at(a0, e.u0, e.per_u), at(a1, e.u0, e.per_u), at(b0, e.v0, e.per_v), at(b1, e.v0, e.per_v)});
   };
 
   rects_.clear();
@@ -138,7 +138,7 @@ void LightGrid::find_rects(const Shot& shot) {
   first_rect_.resize(shot.solids.size() + 1);
   for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
-    first_rect_[i] = static_cast<uint32_t>(rects_.size());
+    first_rect_[i] = uint32_t(rects_.size());
 
     if (!key.near) {
       const float a = dot(e.u, s.center), b = dot(e.v, s.center);
@@ -150,7 +150,7 @@ void LightGrid::find_rects(const Shot& shot) {
     // The faces of the cube around the lamp on which the ball is seen.
     const float radius = s.radius + blur_[i];
     for (int face = 0; face < 6; ++face) {
-      const auto axis = static_cast<size_t>(face / 2);
+      const auto axis = size_t(face / 2);
       const auto p = [&](size_t k) { return s.center[k % 3] - key.vector[k % 3]; };
       const float ahead = face % 2 ? -p(axis) : p(axis);
 
@@ -161,20 +161,20 @@ void LightGrid::find_rects(const Shot& shot) {
     }
   }
 
-  first_rect_.back() = static_cast<uint32_t>(rects_.size());
+  first_rect_.back() = uint32_t(rects_.size());
 }
 
 /// The members of each cell are contiguous: counts them first, then fills.
 void LightGrid::sort_into_cells(const Shot& shot) {
   const int side = extent.side;
   const size_t faces = shot.lighting.lamps[0].near ? 6 : 1;
-  const size_t count = faces * static_cast<size_t>(side) * static_cast<size_t>(side);
+  const size_t count = faces * size_t(side) * size_t(side);
 
   const auto each_cell = [&](size_t i, auto visit) {
     for (uint32_t k = first_rect_[i]; k < first_rect_[i + 1]; ++k) {
       const CellRect& r = rects_[k];
       for (int b = r.v0; b <= r.v1; ++b)
-        for (int a = r.u0; a <= r.u1; ++a) visit(static_cast<size_t>((r.face * side + b) * side + a));
+        for (int a = r.u0; a <= r.u1; ++a) visit(size_t((r.face * side + b) * side + a));
     }
   };
 

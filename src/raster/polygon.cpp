@@ -81,7 +81,7 @@ void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
   // A regular polygon of n corners deviates from its circle by r pi^2 / (2 n^2).
   const double z = std::max(c.z() - solid.radius, double{lens.near});
   const double pixels = solid.half[0] / (z * lens.pixel);
-  const int corners = std::clamp(static_cast<int>(std::ceil(std::numbers::pi * std::sqrt(10 * pixels))), 12, 512);
+  const int corners = std::clamp(int(std::ceil(std::numbers::pi * std::sqrt(10 * pixels))), 12, 512);
 
   // The polygon of the circle's area.
   const double step = 2 * std::numbers::pi / corners, wide = std::sqrt(step / std::sin(step));

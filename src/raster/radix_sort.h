@@ -18,7 +18,7 @@ class SortedNumbers {
     array<array<uint32_t, 2048>, 3> places{};
     for (size_t i = 0; i < count; ++i) {
       const uint32_t key = key_of(by[i]);
-      pairs_[i] = {key, static_cast<uint32_t>(i)};
+      pairs_[i] = {key, uint32_t(i)};
       for (size_t k = 0; k < 3; ++k) ++places[k][key >> 11 * k & 2047U];
     }
 

@@ -15,15 +15,15 @@ namespace {
 PixelBounds pixels(const Lens& lens, double left, double right, double bottom, double top) {
   // std::ceil and std::floor would be calls.
   const auto first = [](double x, int most) {
-    x = std::clamp(x, 0.0, static_cast<double>(most));
-    const int i = static_cast<int>(x);
-    return static_cast<int16_t>(i < x ? i + 1 : i);
+    x = std::clamp(x, 0.0, double(most));
+    const int i = int(x);
+    return int16_t(i < x ? i + 1 : i);
   };
 
   const auto end = [](double x, int most) {
     x = std::clamp(x, -1.0, most - 1.0);
-    const int i = static_cast<int>(x);
-    return static_cast<int16_t>(i > x ? i : i + 1);
+    const int i = int(x);
+    return int16_t(i > x ? i : i + 1);
   };
 
   // The middle of pixel i is at left + i pixel.
@@ -50,15 +50,15 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
   BallOutline& ball = to.ball;
   if (lens.smooth && b < seen) {
     const double longer = std::max(a, least), shorter = std::max(b, least);
-    ball.opacity = static_cast<float>(a * b / (longer * shorter + lens.pixel * lens.pixel / 12));
+    ball.opacity = float(a * b / (longer * shorter + lens.pixel * lens.pixel / 12));
     a = longer, b = shorter;
   }
 
-  ball.x = static_cast<float>(o.x), ball.y = static_cast<float>(o.y);
-  ball.xx = static_cast<float>(ex / a), ball.xy = static_cast<float>(ey / a);
-  ball.yx = static_cast<float>(-ey / b), ball.yy = static_cast<float>(ex / b);
-  ball.per_a = static_cast<float>(1 / a), ball.per_b = static_cast<float>(1 / b);
-  ball.depth2 = static_cast<float>(o.depth2);
+  ball.x = float(o.x), ball.y = float(o.y);
+  ball.xx = float(ex / a), ball.xy = float(ey / a);
+  ball.yx = float(-ey / b), ball.yy = float(ex / b);
+  ball.per_a = float(1 / a), ball.per_b = float(1 / b);
+  ball.depth2 = float(o.depth2);
 
   const double wide = std::sqrt(a * a * ex * ex + b * b * ey * ey), high = std::sqrt(a * a * ey * ey + b * b * ex * ex);
   return pixels(lens, o.x - wide, o.x + wide, o.y - high, o.y + high);
@@ -69,7 +69,7 @@ PixelBounds outline_ball(const Lens& lens, const Solid& solid, Silhouette& to) {
 PixelBounds bounds_of_ball(const Lens& lens, const Float3& center, float radius) {
   const double near = center[2] - radius, far = center[2] + radius;
   if (far <= lens.near) return {};
-  if (near <= lens.near) return {0, 0, static_cast<int16_t>(lens.width), static_cast<int16_t>(lens.height)};
+  if (near <= lens.near) return {0, 0, int16_t(lens.width), int16_t(lens.height)};
   const auto low = [&](double x) { return x / (x < 0 ? near : far); };
   const auto high = [&](double x) { return x / (x > 0 ? near : far); };
   return pixels(lens, low(center[0] - radius), high(center[0] + radius), low(center[1] - radius),
@@ -81,16 +81,16 @@ PixelBounds Silhouettes::add_polygon(const Shot& shot, const Solid& solid, Silho
   const vector<PlanePoint> hull = outline_polygon(shot, solid);
   if (hull.size() < 3) return {};
 
-  to.first_edge = static_cast<int32_t>(edges_.size());
+  to.first_edge = int32_t(edges_.size());
   const size_t pairs = (hull.size() + 1) / 2;
-  to.edge_pairs = static_cast<int32_t>(pairs);
+  to.edge_pairs = int32_t(pairs);
 
   const auto edge = [&](size_t i) -> Edge {
     if (i >= hull.size()) return {0, 0, 1e6F};
     const PlanePoint &p = hull[i], &q = hull[(i + 1) % hull.size()];
     const double length = std::hypot(q.x - p.x, q.y - p.y) * lens.pixel;
     const double a = -(q.y - p.y) / length, b = (q.x - p.x) / length;
-    return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(-a * p.x - b * p.y)};
+    return {float(a), float(b), float(-a * p.x - b * p.y)};
   };
 
   for (size_t i = 0; i < pairs; ++i) {

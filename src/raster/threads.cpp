@@ -16,14 +16,14 @@ int drawing_threads() {
   const string_view words = text ? text : "";
   int count = 0;
   if (std::from_chars(words.data(), words.data() + words.size(), count).ec != std::errc())
-    count = static_cast<int>(std::thread::hardware_concurrency());
+    count = int(std::thread::hardware_concurrency());
   return std::clamp(count, 1, 64);
 }
 
 void Threads::run(int count, const Task& task) {
   std::atomic<int> next{0};  // part
   team_.run([&](int thread) {
-    for (int part; (part = next.fetch_add(1)) < count;) task(memories_[static_cast<size_t>(thread)], part);
+    for (int part; (part = next.fetch_add(1)) < count;) task(memories_[size_t(thread)], part);
   });
 }
 

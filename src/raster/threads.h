@@ -15,7 +15,7 @@ int drawing_threads();
 class Threads {
  public:
   /// Starts `count` - 1 threads, or as many as the system has left.
-  explicit Threads(int count) : team_(count), memories_(static_cast<size_t>(team_.size())) {}
+  explicit Threads(int count) : team_(count), memories_(size_t(team_.size())) {}
 
   /// One part of a task, by its number. The memory is the thread's own.
   using Task = function<void(TileMemory& memory, int part)>;

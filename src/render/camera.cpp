@@ -18,7 +18,7 @@ constexpr double degree = std::numbers::pi / 180;
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
   const double length2 = ab.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0;
+  const double t = length2 > 0 ? clamp((p - a).dot(ab) / length2, 0.0, 1.0) : 0;
   return (p - (a + t * ab)).norm();
 }
 
@@ -26,11 +26,11 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 double distance_to_quad(const Vec3& p, span<const Vec3, 4> q) {
   const Vec3 n = (q[2] - q[0]).cross(q[3] - q[1]).normalized();
   bool inside = true;
-  double nearest = std::numeric_limits<double>::infinity();
+  double nearest = numeric_limits<double>::infinity();
   for (size_t i = 0; i < 4; ++i) {
     const Vec3 &a = q[i], &b = q[(i + 1) % 4];
     if (n.dot((b - a).cross(p - a)) < 0) inside = false;
-    nearest = std::min(nearest, distance_to_segment(p, a, b));
+    nearest = min(nearest, distance_to_segment(p, a, b));
   }
   return inside ? std::abs(n.dot(p - q[0])) : nearest;
 }
@@ -56,7 +56,7 @@ CameraFrame view_of(const Camera& camera, Size size) {
   view.right = right.normalized();
   view.up = view.right.cross(view.forward);
 
-  const double aspect = static_cast<double>(size.width) / size.height;
+  const double aspect = double(size.width) / size.height;
   const double half = std::tan(camera.fov * degree / 2);
   const double across = camera.fov_horizontal ? half : half * aspect;
   view.fov_x = 2 * std::atan(across) / degree;
@@ -70,7 +70,7 @@ bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3
   const double x = std::abs(view.right.dot(offset)), y = std::abs(view.up.dot(offset)), z = view.forward.dot(offset);
   const double tx = std::tan(view.fov_x * degree / 2), ty = std::tan(view.fov_y * degree / 2);
   const double beyond_right = (x - z * tx) / std::hypot(1, tx), beyond_top = (y - z * ty) / std::hypot(1, ty);
-  const double beyond = std::max({beyond_right, beyond_top, camera.near - z, z - camera.far});
+  const double beyond = max({beyond_right, beyond_top, camera.near - z, z - camera.far});
 
   if (beyond <= 0) return true;
   if (!(beyond <= radius)) return false;

@@ -11,7 +11,7 @@
 namespace carom {
 
 inline raster::Float3 floats(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+  return {float(v.x()), float(v.y()), float(v.z())};
 }
 
 struct Eye {

@@ -40,18 +40,17 @@ Frustum::Frustum(const Camera& lens, Size size, double elevation)
                (tan_y_ * view_.forward + view_.up).normalized(), (tan_y_ * view_.forward - view_.up).normalized()} {}
 
 void Frustum::Reach::add(const Reach& other) {
-  for (size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], other.least[i]);
+  for (size_t i = 0; i < least.size(); ++i) least[i] = min(least[i], other.least[i]);
 }
 
 void Frustum::add(Reach& reach, const Vec3& center, double radius) const {
-  for (size_t i = 0; i < normals_.size(); ++i)
-    reach.least[i] = std::min(reach.least[i], normals_[i].dot(center) - radius);
+  for (size_t i = 0; i < normals_.size(); ++i) reach.least[i] = min(reach.least[i], normals_[i].dot(center) - radius);
 }
 
 void Frustum::add(Reach& reach, const Vec3& center, const Volume& volume) const {
   if (volume.shape == Shape::sphere) return add(reach, center, volume.half.x());
   for (size_t i = 0; i < normals_.size(); ++i)
-    reach.least[i] = std::min(reach.least[i], normals_[i].dot(center) - volume.support(normals_[i]));
+    reach.least[i] = min(reach.least[i], normals_[i].dot(center) - volume.support(normals_[i]));
 }
 
 Vec3 Frustum::eye(const Reach& reach) const {
@@ -60,14 +59,14 @@ Vec3 Frustum::eye(const Reach& reach) const {
   const double wide = std::hypot(1, tan_x_), high = std::hypot(1, tan_y_);
   const double left = wide * reach.least[0], right = wide * reach.least[1];
   const double bottom = high * reach.least[2], top = high * reach.least[3];
-  const double z = std::min((left + right) / (2 * tan_x_), (bottom + top) / (2 * tan_y_));
+  const double z = min((left + right) / (2 * tan_x_), (bottom + top) / (2 * tan_y_));
   return (left - right) / 2 * view_.right + (bottom - top) / 2 * view_.up + z * view_.forward;
 }
 
 double Frustum::distance(const Reach& reach, const Vec3& target) const {
   double distance = 0;
   for (size_t i = 0; i < normals_.size(); ++i)
-    distance = std::max(distance, (normals_[i].dot(target) - reach.least[i]) / normals_[i].dot(view_.forward));
+    distance = max(distance, (normals_[i].dot(target) - reach.least[i]) / normals_[i].dot(view_.forward));
   return distance;
 }
 

@@ -35,8 +35,8 @@ GLuint compile(GLenum kind, std::initializer_list<string_view> parts) {
 
   string log(4096, '\0');
   GLsizei length = 0;
-  gl::GetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
-  log.resize(static_cast<size_t>(length));
+  gl::GetShaderInfoLog(shader, GLsizei(log.size()), &length, log.data());
+  log.resize(size_t(length));
   gl::DeleteShader(shader);
   throw RenderError(fmt::format("a shader does not compile on this OpenGL: {}", log));
 }
@@ -111,11 +111,11 @@ Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth) {
 
   vector<GLenum> targets;
   for (GLuint color : colors) {
-    targets.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(targets.size()));
+    targets.push_back(GL_COLOR_ATTACHMENT0 + GLenum(targets.size()));
     gl::FramebufferTexture2D(GL_FRAMEBUFFER, targets.back(), GL_TEXTURE_2D, color, 0);
   }
   if (depth) gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
-  gl::DrawBuffers(static_cast<GLsizei>(targets.size()), targets.data());
+  gl::DrawBuffers(GLsizei(targets.size()), targets.data());
 
   check("allocating the picture");
   if (gl::CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
@@ -126,7 +126,7 @@ Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth) {
 Program::Program(std::initializer_list<string_view> vertex, std::initializer_list<string_view> fragment)
     : handle_(gl::CreateProgram()) {
   for (const auto& [kind, parts] : {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
-    const GLuint shader = compile(static_cast<GLenum>(kind), parts);
+    const GLuint shader = compile(GLenum(kind), parts);
     gl::AttachShader(handle_.name(), shader);
     gl::DeleteShader(shader);
   }
@@ -138,8 +138,8 @@ Program::Program(std::initializer_list<string_view> vertex, std::initializer_lis
 
   string log(4096, '\0');
   GLsizei length = 0;
-  gl::GetProgramInfoLog(handle_.name(), static_cast<GLsizei>(log.size()), &length, log.data());
-  log.resize(static_cast<size_t>(length));
+  gl::GetProgramInfoLog(handle_.name(), GLsizei(log.size()), &length, log.data());
+  log.resize(size_t(length));
   throw RenderError(fmt::format("a shader does not link on this OpenGL: {}", log));
 }
 

@@ -26,7 +26,7 @@ constexpr auto patience = std::chrono::seconds(2);
 unsigned thread_count() {
   const int count = raster::drawing_threads();
   // The caller draws where there is one alone.
-  return count > 1 ? std::min(static_cast<unsigned>(count), most_threads) : 0;
+  return count > 1 ? min(unsigned(count), most_threads) : 0;
 }
 
 /// Whether the system can provide so many threads at once.

@@ -37,7 +37,7 @@ Eigen::Quaterniond rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
 }
 
 array<float, 4> parts_of(const Eigen::Quaterniond& q) {
-  return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
+  return {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
 }
 
 class GlbBuilder {
@@ -91,19 +91,18 @@ class GlbBuilder {
     const size_t node = file_.add("nodes", {{"name", thing.name},
                                             {"mesh", meshes_.single(mesh, thing.color, thing.two_sided, thing.name)},
                                             {"translation", floats(middle)}});
-    if (const Entity e = scene_.world.body_count() + static_cast<Entity>(thing.fixed); scene_.world.moves(e))
+    if (const Entity e = scene_.world.body_count() + Entity(thing.fixed); scene_.world.moves(e))
       moving_.push_back({node, e, middle});
   }
 
   void add_camera() {
     const CameraFrame view = view_of(camera_, size_);
-    const size_t number =
-        file_.add("cameras", {{"type", "perspective"},
-                              {"perspective",
-                               {{"aspectRatio", static_cast<float>(size_.width) / static_cast<float>(size_.height)},
-                                {"yfov", static_cast<float>(view.fov_y * std::numbers::pi / 180)},
-                                {"zfar", static_cast<float>(camera_.far)},
-                                {"znear", static_cast<float>(camera_.near)}}}});
+    const size_t number = file_.add("cameras", {{"type", "perspective"},
+                                                {"perspective",
+                                                 {{"aspectRatio", float(size_.width) / float(size_.height)},
+                                                  {"yfov", float(view.fov_y * std::numbers::pi / 180)},
+                                                  {"zfar", float(camera_.far)},
+                                                  {"znear", float(camera_.near)}}}});
     camera_node_ = file_.add("nodes", {{"name", free_name("camera")},
                                        {"translation", floats(camera_.eye)},
                                        {"rotation", parts_of(rotation_of(camera_))},
@@ -147,8 +146,7 @@ class GlbBuilder {
     node["extensions"][lights_extension]["light"] = lights.size();
     file_.add("nodes", std::move(node));
     // Lux, or candela.
-    lights.push_back(
-        {{"name", name}, {"type", type}, {"color", color}, {"intensity", static_cast<float>(usual * intensity)}});
+    lights.push_back({{"name", name}, {"type", type}, {"color", color}, {"intensity", float(usual * intensity)}});
   }
 
   void animate() {
@@ -177,7 +175,7 @@ class GlbBuilder {
     const auto [known, is_new] = times_.try_emplace(times);
     if (is_new) {
       vector<array<float, 1>> seconds;
-      for (const double time : times) seconds.push_back({static_cast<float>(time)});
+      for (const double time : times) seconds.push_back({float(time)});
       known->second = file_.add_rows(seconds, GlbFile::Use::data);
     }
     channels_.push_back({{"sampler", samplers_.size()}, {"target", {{"node", node}, {"path", path}}}});

@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void put_word(string& file, size_t value) {
-  const auto word = static_cast<uint32_t>(value);
+  const auto word = uint32_t(value);
   file.append(reinterpret_cast<const char*>(&word), sizeof word);
 }
 
@@ -38,7 +38,7 @@ size_t GlbFile::add_once(const string& list, Json item) {
 size_t GlbFile::add_bytes(string_view bytes, Use use) {
   fill_up(binary_, '\0');
   Json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
-  if (use != Use::data) view["target"] = static_cast<int>(use);
+  if (use != Use::data) view["target"] = int(use);
   binary_ += bytes;
   return add("bufferViews", std::move(view));
 }
@@ -47,10 +47,10 @@ template <typename Number>
 size_t GlbFile::add_numbers(span<const Number> numbers, size_t width, Use use) {
   constexpr int unsigned_int = 5125, float_number = 5126;
   constexpr const char* types[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
-  vector<Number> least(numbers.begin(), numbers.begin() + static_cast<ptrdiff_t>(width)), most = least;
+  vector<Number> least(numbers.begin(), numbers.begin() + ptrdiff_t(width)), most = least;
   for (size_t i = 0; i < numbers.size(); ++i) {
-    least[i % width] = std::min(least[i % width], numbers[i]);
-    most[i % width] = std::max(most[i % width], numbers[i]);
+    least[i % width] = min(least[i % width], numbers[i]);
+    most[i % width] = max(most[i % width], numbers[i]);
   }
 
   const size_t view = add_bytes({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()}, use);

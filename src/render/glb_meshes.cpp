@@ -40,13 +40,13 @@ Json look(const array<float, 4>& base, bool two_sided, const string& name) {
 Mesh part_of(const Mesh& mesh, size_t first, const MeshPart& part) {
   Mesh out;
   out.paint.parts = {part};
-  constexpr uint32_t none = std::numeric_limits<uint32_t>::max();
+  constexpr uint32_t none = numeric_limits<uint32_t>::max();
   vector<uint32_t> number(mesh.vertices.size(), none);
 
   for (size_t i = first; i < first + size_t{3} * part.triangles; ++i) {
     const uint32_t from = mesh.triangles[i];
     if (number[from] == none) {
-      number[from] = static_cast<uint32_t>(out.vertices.size());
+      number[from] = uint32_t(out.vertices.size());
       out.vertices.push_back(mesh.vertices[from]);
       out.normals.push_back(mesh.normals[from]);
       out.paint.uv.push_back(mesh.paint.uv[from]);
@@ -154,8 +154,7 @@ size_t GlbMeshes::volume(Shape shape, const Color& color) {
   if (is_new) {
     const Mesh mesh = shape == Shape::sphere ? round_ball() : shape == Shape::cylinder ? round_cylinder() : unit_box();
     constexpr const char* names[] = {"ball", "cylinder", "box"};
-    known->second =
-        single(mesh, color, false, fmt::format("{} {}", names[static_cast<size_t>(shape)], hex_text(color)));
+    known->second = single(mesh, color, false, fmt::format("{} {}", names[size_t(shape)], hex_text(color)));
   }
   return known->second;
 }

@@ -11,12 +11,11 @@ struct Image {
   /// 3: red, green and blue, sRGB-encoded. 4: also the opacity, by which the colours are not multiplied.
   int channels = 3;
 
-  size_t row_size() const { return static_cast<size_t>(width) * static_cast<size_t>(channels); }
-  const uint8_t* row(int y) const { return pixels.data() + static_cast<size_t>(y) * row_size(); }
+  size_t row_size() const { return size_t(width) * size_t(channels); }
+  const uint8_t* row(int y) const { return pixels.data() + size_t(y) * row_size(); }
   /// Whether it has pixels, as many as its size says.
   bool is_whole() const {
-    return width > 0 && height > 0 && (channels == 3 || channels == 4) &&
-           pixels.size() == static_cast<size_t>(height) * row_size();
+    return width > 0 && height > 0 && (channels == 3 || channels == 4) && pixels.size() == size_t(height) * row_size();
   }
 };
 

@@ -21,8 +21,8 @@ struct LastPicture {
            volume == state.volume && drawing == now;
   }
   bool same_parts(const vector<Entity>& now) const {
-    for (size_t i = 0; i < std::max(part_of.size(), now.size()); ++i) {
-      const auto of = [&](const vector<Entity>& parts) { return i < parts.size() ? parts[i] : static_cast<Entity>(i); };
+    for (size_t i = 0; i < max(part_of.size(), now.size()); ++i) {
+      const auto of = [&](const vector<Entity>& parts) { return i < parts.size() ? parts[i] : Entity(i); };
       if (of(part_of) != of(now)) return false;
     }
     return true;

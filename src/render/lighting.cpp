@@ -11,7 +11,7 @@
 namespace carom {
 
 array<float, 3> linear(const Color& srgb) {
-  const auto light = [](double c) { return static_cast<float>(light_of_srgb(std::clamp(c, 0.0, 1.0))); };
+  const auto light = [](double c) { return float(light_of_srgb(clamp(c, 0.0, 1.0))); };
   return {light(srgb.r), light(srgb.g), light(srgb.b)};
 }
 
@@ -30,13 +30,13 @@ void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   const Camera at_start = camera_of(scene);
   for (const Light& light : scene.lights) {
     raster::Float3 radiance = linear(light.color);
-    for (float& c : radiance) c *= static_cast<float>(light.intensity);
+    for (float& c : radiance) c *= float(light.intensity);
 
     const bool near = light.position.has_value();
     const Vec3 vector = near ? eye.point(*light.position) : Vec3(-eye.direction(light.direction->normalized()));
     shot.lighting.lamps.push_back({floats(vector), near, radiance});
     if (near && shot.lighting.lamps.size() == 1)
-      shot.lighting.lamp_radius = static_cast<float>(softness * (at_start.target - *light.position).norm());
+      shot.lighting.lamp_radius = float(softness * (at_start.target - *light.position).norm());
   }
 
   if (scene.lights.empty()) {
@@ -44,7 +44,7 @@ void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     shot.lighting.lamps.push_back({floats(eye.direction(light.towards)), false, light.radiance});
   }
 
-  shot.lighting.softness = static_cast<float>(softness);
+  shot.lighting.softness = float(softness);
   shot.lighting.ambient = scene.ambient ? linear(*scene.ambient) : raster::Float3{0.26F, 0.28F, 0.31F};
 }
 

@@ -49,7 +49,7 @@ string check_file(const string& path, const MeshLimits& limits) {
   string ending = std::filesystem::path(path).extension().string();
   if (!ending.empty()) ending.erase(0, 1);
   for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
 
   const auto& known = mesh_endings();
   if (std::ranges::find(known, ending) == known.end())
@@ -66,7 +66,7 @@ string check_file(const string& path, const MeshLimits& limits) {
   if (S_ISDIR(info.st_mode)) fail(path, "it is a folder");
   if (!S_ISREG(info.st_mode)) fail(path, "it is not a regular file");
   if (info.st_size == 0) fail(path, "it is empty");
-  if (static_cast<uint64_t>(info.st_size) > limits.file_bytes)
+  if (uint64_t(info.st_size) > limits.file_bytes)
     fail(path, fmt::format("it has {} bytes; at most {} are read", info.st_size, limits.file_bytes));
 
   return ending;
@@ -78,7 +78,7 @@ void limit(int what, uint64_t value) {
   rlimit bound{value, value};
   rlimit now{};
   if (getrlimit(static_cast<__rlimit_resource>(what), &now) == 0)
-    bound.rlim_cur = bound.rlim_max = std::min<rlim_t>(value, now.rlim_max);
+    bound.rlim_cur = bound.rlim_max = min<rlim_t>(value, now.rlim_max);
   if (setrlimit(static_cast<__rlimit_resource>(what), &bound) != 0) _exit(3);
 }
 
@@ -88,7 +88,7 @@ uint64_t memory_now() {
   FILE* file = std::fopen("/proc/self/statm", "re");
   if (!file || std::fscanf(file, "%llu", &pages) != 1) pages = 0;
   if (file) std::fclose(file);
-  return pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+  return pages * uint64_t(sysconf(_SC_PAGESIZE));
 }
 
 void confine(const MeshLimits& limits, pid_t parent) {
@@ -113,13 +113,13 @@ void send(int pipe, const void* bytes, size_t size) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) _exit(3);
     from += n;
-    size -= static_cast<size_t>(n);
+    size -= size_t(n);
   }
 }
 
 void send_trouble(int pipe, const char* text) {
   MeshReplyHead head;
-  head.text = static_cast<uint32_t>(std::min<size_t>(std::strlen(text), longest_mesh_trouble));
+  head.text = uint32_t(min<size_t>(std::strlen(text), longest_mesh_trouble));
   send(pipe, &head, sizeof head);
   send(pipe, text, head.text);
 }
@@ -149,7 +149,7 @@ struct MeshRequest {
 [[noreturn]] void run_child(int pipe, const MeshRequest& request) {
   try {
     const ImportedMesh mesh = import_mesh(request.path, request.ending, request.painted, request.limits);
-    const auto count = [](size_t size) { return static_cast<uint32_t>(size); };
+    const auto count = [](size_t size) { return uint32_t(size); };
     const MeshReplyHead head{count(mesh.vertices.size() / 3), count(mesh.triangles.size() / 3), 0,
                              count(mesh.paint.parts.size()), count(mesh.paint.textures.size())};
 
@@ -216,7 +216,7 @@ class MeshReader {
       }
 
       pollfd request{pipe_, POLLIN, 0};
-      if (poll(&request, 1, static_cast<int>(std::min<int64_t>(left, glance))) <= 0) {
+      if (poll(&request, 1, int(min<int64_t>(left, glance))) <= 0) {
         stop_check()();
         continue;
       }
@@ -225,7 +225,7 @@ class MeshReader {
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) return false;
       to += n;
-      size -= static_cast<size_t>(n);
+      size -= size_t(n);
     }
 
     return true;

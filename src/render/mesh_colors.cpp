@@ -13,11 +13,11 @@ namespace {
 
 gl::Texture uploaded(const MeshTexture& finest) {
   const vector<MeshTexture> coarser = coarser_levels(finest);
-  gl::Texture texture = gl::make_texture(GL_SRGB8_ALPHA8, static_cast<int>(finest.width),
-                                         static_cast<int>(finest.height), static_cast<int>(coarser.size()) + 1);
+  gl::Texture texture =
+      gl::make_texture(GL_SRGB8_ALPHA8, int(finest.width), int(finest.height), int(coarser.size()) + 1);
   const auto upload = [](GLint level, const MeshTexture& from) {
-    gl::TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, static_cast<GLsizei>(from.width), static_cast<GLsizei>(from.height),
-                      GL_RGBA, GL_UNSIGNED_BYTE, from.rgba.data());
+    gl::TexSubImage2D(GL_TEXTURE_2D, level, 0, 0, GLsizei(from.width), GLsizei(from.height), GL_RGBA, GL_UNSIGNED_BYTE,
+                      from.rgba.data());
   };
   upload(0, finest);
   for (size_t i = 0; i < coarser.size(); ++i) upload(static_cast<GLint>(i + 1), coarser[i]);
@@ -32,9 +32,9 @@ GLint mode_of(Wrap wrap) {
 /// The pixel of a side of `length` at x, 1 a side.
 uint32_t pixel_at(float x, Wrap wrap, uint32_t length) {
   float inside = x - std::floor(x);
-  if (wrap == Wrap::clamp) inside = std::clamp(x, 0.0F, 1.0F);
+  if (wrap == Wrap::clamp) inside = clamp(x, 0.0F, 1.0F);
   if (wrap == Wrap::mirror) inside = 1 - std::abs(1 - (x - 2 * std::floor(x / 2)));
-  return std::min(static_cast<uint32_t>(inside * static_cast<float>(length)), length - 1);
+  return min(uint32_t(inside * float(length)), length - 1);
 }
 
 /// At least so many points of a mesh are looked at for its mean colour.
@@ -67,8 +67,8 @@ void for_points(int n, Use use) {
   for (int i = 0; i < n; ++i)
     for (int k = 0; k < 2 * (n - i) - 1; ++k) {
       const float third = (k % 2 ? 2.0F : 1.0F) / 3;
-      const float b = (static_cast<float>(i) + third) / static_cast<float>(n);
-      const float c = (static_cast<float>(k / 2) + third) / static_cast<float>(n);
+      const float b = (float(i) + third) / float(n);
+      const float c = (float(k / 2) + third) / float(n);
       use(array<float, 3>{1 - b - c, b, c});
     }
 }
@@ -89,12 +89,12 @@ MeshColors::MeshColors(const Mesh& mesh) : parts_(mesh.paint.parts), rows_(gl::m
   }
 
   gl::BindBuffer(GL_ARRAY_BUFFER, rows_.name());
-  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
+  gl::BufferData(GL_ARRAY_BUFFER, GLsizeiptr(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
 
   for (const auto& [index, floats, offset] : {array{4, 2, 0}, array{5, 3, 2}}) {
-    gl::EnableVertexAttribArray(static_cast<GLuint>(index));
-    gl::VertexAttribPointer(static_cast<GLuint>(index), floats, GL_FLOAT, GL_FALSE, row * sizeof(float),
-                            reinterpret_cast<const void*>(static_cast<size_t>(offset) * sizeof(float)));
+    gl::EnableVertexAttribArray(GLuint(index));
+    gl::VertexAttribPointer(GLuint(index), floats, GL_FLOAT, GL_FALSE, row * sizeof(float),
+                            reinterpret_cast<const void*>(size_t(offset) * sizeof(float)));
   }
 }
 
@@ -110,8 +110,8 @@ void MeshColors::bind(const MeshPart& part) const {
 }
 
 MeanColor mean_color(const Mesh& mesh) {
-  const double triangles = static_cast<double>(mesh.triangles.size()) / 3;
-  const int n = std::max(1, static_cast<int>(std::ceil(std::sqrt(least_points / triangles))));
+  const double triangles = double(mesh.triangles.size()) / 3;
+  const int n = max(1, int(std::ceil(std::sqrt(least_points / triangles))));
 
   array<double, 3> sum{};
   double area = 0, plain = 0;
@@ -128,14 +128,14 @@ MeanColor mean_color(const Mesh& mesh) {
         if (color[3] < part.cutoff) return;
         area += share;
         if (!part.colored) plain += share;
-        for (size_t i = 0; part.colored && i < 3; ++i) sum[i] += share * static_cast<double>(color[i]);
+        for (size_t i = 0; part.colored && i < 3; ++i) sum[i] += share * double(color[i]);
       });
     }
 
   MeanColor mean{{}, 1};
   if (!(area > 0)) return mean;
-  for (size_t i = 0; i < 3; ++i) mean.colored[i] = static_cast<float>(sum[i] / area);
-  mean.plain = static_cast<float>(plain / area);
+  for (size_t i = 0; i < 3; ++i) mean.colored[i] = float(sum[i] / area);
+  mean.plain = float(plain / area);
   return mean;
 }
 

@@ -76,7 +76,7 @@ void drop_names(string& text, bool painted) {
 vector<string_view> split(string_view line) {
   vector<string_view> parts;
   for (size_t i = 0; i < line.size();) {
-    const size_t end = std::min(line.find_first_of(" \t", i), line.size());
+    const size_t end = min(line.find_first_of(" \t", i), line.size());
     if (end > i) parts.push_back(line.substr(i, end - i));
     i = end + 1;
   }
@@ -120,7 +120,7 @@ TextureLine texture_line(string_view line) {
   }
 
   // A name may contain spaces.
-  if (i < parts.size()) out.file = after(line.substr(static_cast<size_t>(parts[i].data() - line.data())), "");
+  if (i < parts.size()) out.file = after(line.substr(size_t(parts[i].data() - line.data())), "");
   return out;
 }
 
@@ -151,8 +151,7 @@ string with_white(const string& text, std::set<string>& defined, std::map<string
 void check_options(const string& name, const string& text) {
   size_t number = 1, counted = 0;
   for_lines(text, [&](size_t at, string_view line) {
-    number += static_cast<size_t>(
-        std::count(text.begin() + static_cast<ptrdiff_t>(counted), text.begin() + static_cast<ptrdiff_t>(at), '\n'));
+    number += size_t(std::count(text.begin() + ptrdiff_t(counted), text.begin() + ptrdiff_t(at), '\n'));
     counted = at;
     const string unused = opens(line, "map_Kd") ? texture_line(line).unused : "";
     if (!unused.empty())
@@ -191,7 +190,7 @@ string name_in(const string& uri) {
   for (size_t i = 0; i < uri.size(); ++i) {
     const int high = i + 2 < uri.size() ? hex_digit(uri[i + 1]) : -1, low = high < 0 ? -1 : hex_digit(uri[i + 2]);
     if (uri[i] == '%' && low >= 0 && 16 * high + low > 0) {
-      name += static_cast<char>(16 * high + low);
+      name += char(16 * high + low);
       i += 2;
     } else {
       name += uri[i] == '\\' ? '/' : uri[i];

@@ -89,8 +89,8 @@ void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
     normal[t] = area[t].stableNormalized();
 
     for (int k = 0; k < 3; ++k) {
-      at_vertex[corner[k] - first].push_back(static_cast<uint32_t>(t));
-      at_place[place[corner[k] - first]].push_back(static_cast<uint32_t>(t));
+      at_vertex[corner[k] - first].push_back(uint32_t(t));
+      at_place[place[corner[k] - first]].push_back(uint32_t(t));
     }
   }
 
@@ -116,7 +116,7 @@ void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
       }
       const Vec3 mean = sum.stableNormalized();
 
-      uint32_t at = static_cast<uint32_t>(first + v);
+      uint32_t at = uint32_t(first + v);
       bool known = false;
       for (const Made& m : made)
         if (m.normal == mean) known = true, at = m.vertex;
@@ -124,12 +124,12 @@ void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
       if (!known) {
         // The first one keeps its place.
         if (!made.empty()) {
-          at = static_cast<uint32_t>(mesh.vertices.size() / 3);
+          at = uint32_t(mesh.vertices.size() / 3);
           repeat_vertex(mesh, first + v);
           mesh.normals.resize(mesh.vertices.size());
         }
 
-        for (int k = 0; k < 3; ++k) mesh.normals[3 * size_t{at} + static_cast<size_t>(k)] = static_cast<float>(mean[k]);
+        for (int k = 0; k < 3; ++k) mesh.normals[3 * size_t{at} + size_t(k)] = float(mean[k]);
         made.push_back({mean, at});
       }
 
@@ -159,7 +159,7 @@ void append_triangles(const aiMesh& part, size_t first, ImportedMesh& mesh) {
     if (face.mNumIndices != 3) continue;
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= part.mNumVertices) throw std::runtime_error("a triangle refers to a missing vertex");
-      mesh.triangles.push_back(static_cast<uint32_t>(first + face.mIndices[k]));
+      mesh.triangles.push_back(uint32_t(first + face.mIndices[k]));
     }
   }
 }
@@ -189,7 +189,7 @@ void append_paint(const aiMesh& part, const PartSource& source, MeshPaint& paint
     array<float, 3> tint{1, 1, 1};
     for (unsigned c = 0; part.mColors[0] && c < 3; ++c) {
       tint[c] = color_share(part.mColors[0][i][c]);
-      if (source.srgb_tint) tint[c] = static_cast<float>(light_of_srgb(double{tint[c]}));
+      if (source.srgb_tint) tint[c] = float(light_of_srgb(double{tint[c]}));
     }
 
     paint.tint.push_back(tint);
@@ -207,7 +207,7 @@ void append(const aiMesh& part, MeshMaterials* materials, ImportedMesh& mesh, co
   if (materials) {
     PartSource source = materials->of(part);
     append_paint(part, source, mesh.paint);
-    source.part.triangles = static_cast<uint32_t>(mesh.triangles.size() / 3 - triangle);
+    source.part.triangles = uint32_t(mesh.triangles.size() / 3 - triangle);
     mesh.paint.parts.push_back(source.part);
   }
 
@@ -237,7 +237,7 @@ ImportedMesh imported_stl(const string& path, const MeshLimits& limits) {
   vector<uint32_t> number(corners.size());
   for (uint32_t i = 0; i < corners.size(); ++i) {
     if (first[i] == i) {
-      number[i] = static_cast<uint32_t>(mesh.vertices.size() / 3);
+      number[i] = uint32_t(mesh.vertices.size() / 3);
       mesh.vertices.insert(mesh.vertices.end(), corners[i].begin(), corners[i].end());
     }
     mesh.triangles.push_back(number[first[i]]);

@@ -66,7 +66,7 @@ MeshMaterials::MeshMaterials(const aiScene& scene, const MeshFiles& files, const
   std::set<std::pair<string, string>> names;
   for (unsigned i = 0; i < scene.mNumMaterials; ++i)
     names.insert({texture_name(*scene.mMaterials[i]), alpha_mode(*scene.mMaterials[i])});
-  most_kept_ = std::max<uint64_t>(limits.texture_bytes / 4 / std::max<size_t>(names.size(), 1), 1);
+  most_kept_ = max<uint64_t>(limits.texture_bytes / 4 / max<size_t>(names.size(), 1), 1);
 }
 
 bool MeshMaterials::gives_color(const aiMesh& mesh, const aiMaterial& material) const {
@@ -89,7 +89,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
   if (wavefront_) {
     aiColor3D color(1, 1, 1);
     if (files_.defines(material.GetName().C_Str())) material.Get(AI_MATKEY_COLOR_DIFFUSE, color);
-    for (unsigned c = 0; c < 3; ++c) part.factor[c] = static_cast<float>(light_of_srgb(double{color_share(color[c])}));
+    for (unsigned c = 0; c < 3; ++c) part.factor[c] = float(light_of_srgb(double{color_share(color[c])}));
   } else {
     aiColor4D color(1, 1, 1, 1);
     material.Get(AI_MATKEY_BASE_COLOR, color);
@@ -100,7 +100,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
     if (alpha == "MASK") {
       part.cutoff = blend_cutoff;
       material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, part.cutoff);
-      part.cutoff = std::isfinite(part.cutoff) ? std::max(part.cutoff, 0.0F) : 0;
+      part.cutoff = std::isfinite(part.cutoff) ? max(part.cutoff, 0.0F) : 0;
     }
   }
 
@@ -119,7 +119,7 @@ void MeshMaterials::add_texture(const aiMaterial& material, bool opaque, PartSou
   };
 
   MeshPart& part = source.part;
-  source.uv_set = static_cast<unsigned>(std::max(number(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0)), 0));
+  source.uv_set = unsigned(max(number(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0)), 0));
   part.wrap = {wrap_of(number(AI_MATKEY_MAPPINGMODE_U(aiTextureType_DIFFUSE, 0))),
                wrap_of(number(AI_MATKEY_MAPPINGMODE_V(aiTextureType_DIFFUSE, 0)))};
 
@@ -130,7 +130,7 @@ void MeshMaterials::add_texture(const aiMaterial& material, bool opaque, PartSou
       add_transform(transform, source);
   }
 
-  const auto [found, is_new] = known_.try_emplace({name, opaque}, static_cast<uint32_t>(textures_.size() + 1));
+  const auto [found, is_new] = known_.try_emplace({name, opaque}, uint32_t(textures_.size() + 1));
   part.texture = found->second;
   if (!is_new) return;
 

@@ -14,7 +14,7 @@ namespace carom {
 
 /// A component of a colour, pressed into 0 to 1.
 inline float color_share(float x) {
-  return x >= 0 ? std::min(x, 1.0F) : 0;
+  return x >= 0 ? min(x, 1.0F) : 0;
 }
 
 /// What a part's vertices need besides its MeshPart.

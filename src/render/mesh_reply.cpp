@@ -93,7 +93,7 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   if (!source.receive(&head, sizeof head)) throw std::runtime_error(source.trouble());
 
   if (head.text > 0) {
-    string text(std::min(head.text, longest_mesh_trouble), ' ');
+    string text(min(head.text, longest_mesh_trouble), ' ');
     source.receive(text.data(), text.size());
     throw std::runtime_error(printable(text));
   }

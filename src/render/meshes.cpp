@@ -130,7 +130,7 @@ void main() {
 )";
 
 float f(double x) {
-  return static_cast<float>(x);
+  return float(x);
 }
 
 void set_axes(const gl::Program& program, const raster::Shot& shot) {
@@ -154,7 +154,7 @@ double reach_of(const Shapes& shapes, size_t file) {
 
 /// Red, green or blue of a point in a colour of its own.
 float light_at(uint32_t roots, size_t i) {
-  const float root = static_cast<float>(roots >> 10 * i & 1023U) / 1023;
+  const float root = float(roots >> 10 * i & 1023U) / 1023;
   return root * root;
 }
 
@@ -162,7 +162,7 @@ float light_at(uint32_t roots, size_t i) {
 void add_levels(raster::OutlineLevels& outline) {
   for (int side = outline.side; side > 1; side /= 2) {
     const vector<float>& fine = outline.levels.back();
-    const auto n = static_cast<size_t>(side), half = n / 2;
+    const auto n = size_t(side), half = n / 2;
     vector<float> coarse(half * half);
     for (size_t y = 0; y < half; ++y)
       for (size_t x = 0; x < half; ++x)
@@ -184,7 +184,7 @@ Meshes::Meshes(const vector<DrawnFile>& files, Size size, bool smooth)
       depth_(gl::make_texture(GL_DEPTH_COMPONENT32F, tile_side * fine_, tile_side * fine_)),
       buffer_(gl::make_framebuffer(array{what_.name()}, depth_.name())) {
   // By pixel.
-  const size_t pixels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
+  const size_t pixels = size_t(size.width) * size_t(size.height);
   pixels_.depth.resize(pixels);
   pixels_.cover.resize(pixels);
   pixels_.solid.resize(pixels);
@@ -280,9 +280,8 @@ void Meshes::draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const
     if (b.left >= tile.right || b.right <= tile.left || b.top >= tile.bottom || b.bottom <= tile.top) continue;
     inside.push_back(i);
 
-    used_ = {std::min(used_.left, std::max(b.left, tile.left)), std::min(used_.top, std::max(b.top, tile.top)),
-             std::max(used_.right, std::min(b.right, tile.right)),
-             std::max(used_.bottom, std::min(b.bottom, tile.bottom))};
+    used_ = {min(used_.left, max(b.left, tile.left)), min(used_.top, max(b.top, tile.top)),
+             max(used_.right, min(b.right, tile.right)), max(used_.bottom, min(b.bottom, tile.bottom))};
   }
 
   if (inside.empty()) {
@@ -359,7 +358,7 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
   const int wide = (used_.right - used_.left) * fine_, high = (used_.bottom - used_.top) * fine_;
   if (wide <= 0) return;
 
-  const size_t points = static_cast<size_t>(wide) * static_cast<size_t>(high);
+  const size_t points = size_t(wide) * size_t(high);
   what_read_.resize(2 * points);
   depth_read_.resize(points);
 
@@ -386,35 +385,34 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
 
       // The mean over the places of the pixel.
       for (int k = 0; k < fine_ * fine_; ++k) {
-        const auto at =
-            static_cast<size_t>(((y - used_.top) * fine_ + k / fine_) * wide + (x - used_.left) * fine_ + k % fine_);
+        const auto at = size_t(((y - used_.top) * fine_ + k / fine_) * wide + (x - used_.left) * fine_ + k % fine_);
         const uint32_t number = what_read_[2 * at] & ~colored_bit, q = what_read_[2 * at + 1];
         if (number == 0) continue;
 
         const bool own = (what_read_[2 * at] & colored_bit) != 0;
         ++covered;
         if (depth_read_[at] > nearest) nearest = depth_read_[at], solid = number;
-        farthest = std::min(farthest, depth_read_[at]);
+        farthest = min(farthest, depth_read_[at]);
 
         for (size_t i = 0; i < 3; ++i) {
-          normal[i] += (static_cast<float>(q >> 10 * i & 1023U) - 512) / 511;
+          normal[i] += (float(q >> 10 * i & 1023U) - 512) / 511;
           color[i] += own ? light_at(colored_->read[at], i) : shot.solids[number - 1].color[i];
         }
       }
 
       if (covered == 0) continue;
-      const auto pixel = static_cast<size_t>(y) * static_cast<size_t>(size_.width) + static_cast<size_t>(x);
+      const auto pixel = size_t(y) * size_t(size_.width) + size_t(x);
       pixels_.depth[pixel] = shot.lens.near / (0.5F * (nearest + farthest));
-      pixels_.cover[pixel] = static_cast<float>(covered) / static_cast<float>(fine_ * fine_);
-      pixels_.solid[pixel] = static_cast<int32_t>(solid) - 1;
+      pixels_.cover[pixel] = float(covered) / float(fine_ * fine_);
+      pixels_.solid[pixel] = int32_t(solid) - 1;
 
       // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
       // there that would not on either face.
       const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-      const float even = length / static_cast<float>(covered);
+      const float even = length / float(covered);
       for (size_t i = 0; i < 3; ++i) {
-        pixels_.normal[pixel][i] = even > 0.97F ? normal[i] / length : normal[i] / static_cast<float>(covered);
-        pixels_.color[pixel][i] = color[i] / static_cast<float>(covered);
+        pixels_.normal[pixel][i] = even > 0.97F ? normal[i] / length : normal[i] / float(covered);
+        pixels_.color[pixel][i] = color[i] / float(covered);
       }
     }
 }
@@ -442,14 +440,14 @@ void Meshes::draw(const vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot
 
   vector<Rect> bounds;
   for (const PlacedMesh& m : meshes) {
-    const raster::Solid& solid = shot.solids[static_cast<size_t>(m.solid)];
+    const raster::Solid& solid = shot.solids[size_t(m.solid)];
     const raster::PixelBounds b = raster::bounds_of_ball(shot.lens, solid.center, solid.radius);
     bounds.push_back({b.left, b.top, b.right, b.bottom});
   }
 
   for (int y = 0; y < size_.height; y += tile_side)
     for (int x = 0; x < size_.width; x += tile_side) {
-      const Rect tile{x, y, std::min(x + tile_side, size_.width), std::min(y + tile_side, size_.height)};
+      const Rect tile{x, y, min(x + tile_side, size_.width), min(y + tile_side, size_.height)};
       draw_tile(tile, meshes, bounds);
       resolve(tile, shot);
     }

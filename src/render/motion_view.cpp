@@ -33,7 +33,7 @@ bool is_drawn(const Scene& scene, size_t fixed) {
 }
 
 double median(vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  const auto middle = values.begin() + ptrdiff_t(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
@@ -51,7 +51,7 @@ void MotionView::add(const State& state) {
   departures_.resize(state.position.size());
   if (first && !state.position.empty()) {
     for (const Vec3& position : state.position) middle_ += position;
-    middle_ /= static_cast<double>(state.position.size());
+    middle_ /= double(state.position.size());
     start_ = time_ = state.time;
   }
 
@@ -151,7 +151,7 @@ void MotionView::add_surroundings(Content& content) const {
   for (size_t i = 0; i < world.walls.size(); ++i) {
     const Wall& wall = world.walls[i];
     const vector<Vec3> places = places_of(fixed++);
-    if (!is_drawn(scene_, world.planes.size() + i) || 2 * std::max(wall.half_width, wall.half_height) > size) continue;
+    if (!is_drawn(scene_, world.planes.size() + i) || 2 * max(wall.half_width, wall.half_height) > size) continue;
 
     Extent box;
     for (const Vec3& center : places)

@@ -54,11 +54,11 @@ struct Renderer::Impl {
     }
 
     shot.backdrop.none = scene.transparent;
-    shot.pattern.unit = static_cast<float>(pattern_unit(s, size));
+    shot.pattern.unit = float(pattern_unit(s, size));
 
     image.width = size.width, image.height = size.height;
     image.channels = scene.transparent ? 4 : 3;
-    image.pixels.resize(static_cast<size_t>(size.height) * image.row_size());
+    image.pixels.resize(size_t(size.height) * image.row_size());
   }
 
   void place_camera(const Eye& eye);
@@ -85,11 +85,11 @@ struct Renderer::Impl {
 };
 
 void Renderer::Impl::place_camera(const Eye& eye) {
-  shot.lens.pixel = static_cast<float>(eye.pixel);
-  shot.lens.left = static_cast<float>(-eye.tan_x + 0.5 * eye.pixel);
-  shot.lens.top = static_cast<float>(eye.tan_y - 0.5 * eye.pixel);
-  shot.lens.near = static_cast<float>(eye.camera.near);
-  for (size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(static_cast<int>(i))));
+  shot.lens.pixel = float(eye.pixel);
+  shot.lens.left = float(-eye.tan_x + 0.5 * eye.pixel);
+  shot.lens.top = float(eye.tan_y - 0.5 * eye.pixel);
+  shot.lens.near = float(eye.camera.near);
+  for (size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(int(i))));
   add_lights(scene, eye, shot);
   add_surfaces(scene, eye, shot);
 }

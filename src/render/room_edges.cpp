@@ -29,7 +29,7 @@ bool edge_of(const vector<Plane>& planes, size_t i, size_t j, Vec3& from, Vec3& 
   const Vec3 start = a.point + b.normal.dot(b.point - a.point) / within.squaredNorm() * within;
 
   // Each other plane cuts off one end.
-  double low = -std::numeric_limits<double>::infinity(), high = -low;
+  double low = -numeric_limits<double>::infinity(), high = -low;
   for (size_t k = 0; k < planes.size(); ++k) {
     if (k == i || k == j) continue;
     const double slope = planes[k].normal.dot(direction), height = planes[k].normal.dot(start - planes[k].point);
@@ -37,9 +37,9 @@ bool edge_of(const vector<Plane>& planes, size_t i, size_t j, Vec3& from, Vec3& 
     if (std::abs(slope) < 1e-12) {
       if (height < 0) return false;
     } else if (slope > 0) {
-      low = std::max(low, -height / slope);
+      low = max(low, -height / slope);
     } else {
-      high = std::min(high, -height / slope);
+      high = min(high, -height / slope);
     }
   }
 

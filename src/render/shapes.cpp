@@ -38,25 +38,25 @@ void Shapes::upload(const Mesh& mesh) {
   rows.reserve(6 * mesh.vertices.size());
   for (size_t i = 0; i < mesh.vertices.size(); ++i) {
     const Vec3 p = mesh.vertices[i] - shape.middle;
-    for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(p[k]));
-    for (int k = 0; k < 3; ++k) rows.push_back(static_cast<float>(mesh.normals[i][k]));
+    for (int k = 0; k < 3; ++k) rows.push_back(float(p[k]));
+    for (int k = 0; k < 3; ++k) rows.push_back(float(mesh.normals[i][k]));
   }
 
   shape.array = gl::make_vertices();
   shape.vertices = gl::make_buffer();
   shape.triangles = gl::make_buffer();
-  shape.indices = static_cast<GLsizei>(mesh.triangles.size());
+  shape.indices = GLsizei(mesh.triangles.size());
 
   gl::BindVertexArray(shape.array.name());
   gl::BindBuffer(GL_ARRAY_BUFFER, shape.vertices.name());
-  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
+  gl::BufferData(GL_ARRAY_BUFFER, GLsizeiptr(rows.size() * sizeof(float)), rows.data(), GL_STATIC_DRAW);
   gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, shape.triangles.name());
-  gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(mesh.triangles.size() * sizeof(uint32_t)),
-                 mesh.triangles.data(), GL_STATIC_DRAW);
+  gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, GLsizeiptr(mesh.triangles.size() * sizeof(uint32_t)), mesh.triangles.data(),
+                 GL_STATIC_DRAW);
 
   const auto attribute = [](GLuint index, GLint floats, size_t stride, size_t offset) {
     gl::EnableVertexAttribArray(index);
-    gl::VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride * sizeof(float)),
+    gl::VertexAttribPointer(index, floats, GL_FLOAT, GL_FALSE, GLsizei(stride * sizeof(float)),
                             reinterpret_cast<const void*>(offset * sizeof(float)));
   };
 
@@ -78,19 +78,19 @@ void Shapes::upload(const Mesh& mesh) {
 
 double Shapes::radius(size_t file, const Vec3& center) const {
   double square = 0;
-  for (const Vec3& p : points_[file]) square = std::max(square, (p - center).squaredNorm());
+  for (const Vec3& p : points_[file]) square = max(square, (p - center).squaredNorm());
   return std::sqrt(square);
 }
 
 void Shapes::fill_instances(span<const float> rows) const {
   gl::BindBuffer(GL_ARRAY_BUFFER, instances_.name());
-  gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
+  gl::BufferData(GL_ARRAY_BUFFER, GLsizeiptr(rows.size_bytes()), rows.data(), GL_STREAM_DRAW);
 }
 
 void Shapes::draw(size_t shape, size_t first, size_t count) const {
   gl::BindVertexArray(shapes_[shape].array.name());
-  gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr,
-                                        static_cast<GLsizei>(count), static_cast<GLuint>(first));
+  gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, shapes_[shape].indices, GL_UNSIGNED_INT, nullptr, GLsizei(count),
+                                        GLuint(first));
 }
 
 void Shapes::draw_parts(size_t shape, size_t first, size_t count,
@@ -100,9 +100,9 @@ void Shapes::draw_parts(size_t shape, size_t first, size_t count,
   for (const MeshPart& part : shapes_[shape].colors->parts()) {
     const size_t indices = size_t{3} * part.triangles;
     prepare(part);
-    gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(indices), GL_UNSIGNED_INT,
-                                          reinterpret_cast<const void*>(from * sizeof(uint32_t)),
-                                          static_cast<GLsizei>(count), static_cast<GLuint>(first));
+    gl::DrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(indices), GL_UNSIGNED_INT,
+                                          reinterpret_cast<const void*>(from * sizeof(uint32_t)), GLsizei(count),
+                                          GLuint(first));
     from += indices;
   }
 }

@@ -92,7 +92,7 @@ class Collector {
     }
 
     center_ = 0.5 * (all.low + all.high);
-    half_ = std::max(1.5 * (0.5 * (all.high - all.low)).maxCoeff(), 1e-9);
+    half_ = max(1.5 * (0.5 * (all.high - all.low)).maxCoeff(), 1e-9);
   }
 
   void add_plane(size_t i) {
@@ -153,7 +153,7 @@ Mesh unit_box() {
   for (int face = 0; face < 6; ++face) {
     const int axis = face / 2;
     const Vec3 normal = (face % 2 ? 1 : -1) * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
-    const auto first = static_cast<uint32_t>(mesh.vertices.size());
+    const auto first = uint32_t(mesh.vertices.size());
     for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
       mesh.vertices.push_back(normal + a * u + b * v);
       mesh.normals.push_back(normal);
@@ -204,7 +204,7 @@ Mesh round_cylinder() {
   }
 
   const Vec3 up(0, 1, 0);
-  const auto sides = static_cast<uint32_t>(circle.size());
+  const auto sides = uint32_t(circle.size());
   Mesh mesh;
   for (uint32_t k = 0; k < sides; ++k) {
     // Vertices of the flank.

@@ -56,12 +56,12 @@ class StlText {
     string word;
     for (; at_ < text_.size() && !is_blank(text_[at_]); ++at_) {
       const char c = text_[at_];
-      word += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+      word += c >= 'A' && c <= 'Z' ? char(c + 32) : c;
     }
     return word;
   }
 
-  void skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
+  void skip_line() { at_ = min(text_.find('\n', at_), text_.size()); }
 
   void expect(string_view wanted) {
     const string word = next();
@@ -92,7 +92,7 @@ class StlText {
     // A number that is too small for a float is 0, and one that is too large not finite.
     const bool is_number = error != std::errc::invalid_argument && end == word.data() + word.size();
     if (!is_number) fail(fmt::format("{} is not a number", shown(word)));
-    if (error == std::errc::result_out_of_range) x = static_cast<float>(std::strtod(word.c_str() + sign, nullptr));
+    if (error == std::errc::result_out_of_range) x = float(std::strtod(word.c_str() + sign, nullptr));
     if (!std::isfinite(x)) fail(fmt::format("{} is not a finite number", shown(word)));
     return x;
   }

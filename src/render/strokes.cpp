@@ -18,7 +18,7 @@ int tiles_along(int pixels) {
 }  // namespace
 
 void Lines::begin(Size picture) {
-  by_tile.resize(static_cast<size_t>(tiles_along(picture.width)) * static_cast<size_t>(tiles_along(picture.height)));
+  by_tile.resize(size_t(tiles_along(picture.width)) * size_t(tiles_along(picture.height)));
   for (auto& tile : by_tile) tile.clear();
   all.clear();
 }
@@ -45,34 +45,32 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
     a = start + from * (b - start), b = start + to * (b - start);
 
     raster::Line line{};
-    const auto pixels = [&](double r, double z) {
-      return static_cast<float>(std::max(r / (z * eye.pixel), 0.5 * stroke.least_width));
-    };
+    const auto pixels = [&](double r, double z) { return float(max(r / (z * eye.pixel), 0.5 * stroke.least_width)); };
 
-    line.x0 = static_cast<float>(0.5 * width + a.x() / (a.z() * eye.pixel));
-    line.y0 = static_cast<float>(0.5 * height - a.y() / (a.z() * eye.pixel));
-    line.x1 = static_cast<float>(0.5 * width + b.x() / (b.z() * eye.pixel));
-    line.y1 = static_cast<float>(0.5 * height - b.y() / (b.z() * eye.pixel));
+    line.x0 = float(0.5 * width + a.x() / (a.z() * eye.pixel));
+    line.y0 = float(0.5 * height - a.y() / (a.z() * eye.pixel));
+    line.x1 = float(0.5 * width + b.x() / (b.z() * eye.pixel));
+    line.y1 = float(0.5 * height - b.y() / (b.z() * eye.pixel));
 
     line.radius0 = pixels(at(from, stroke.from_radius, stroke.to_radius), a.z());
     line.radius1 = pixels(at(to, stroke.from_radius, stroke.to_radius), b.z());
-    line.depth0 = static_cast<float>(1 / a.z()), line.depth1 = static_cast<float>(1 / b.z());
+    line.depth0 = float(1 / a.z()), line.depth1 = float(1 / b.z());
 
     line.color = linear(stroke.color);
-    line.opacity0 = static_cast<float>(at(from, stroke.from_opacity, stroke.to_opacity));
-    line.opacity1 = static_cast<float>(at(to, stroke.from_opacity, stroke.to_opacity));
+    line.opacity0 = float(at(from, stroke.from_opacity, stroke.to_opacity));
+    line.opacity1 = float(at(to, stroke.from_opacity, stroke.to_opacity));
     line.joined = joined;
 
-    const double wide = std::max(line.radius0, line.radius1) + 1;
+    const double wide = max(line.radius0, line.radius1) + 1;
     const auto tile = [](double x, int most) {
-      return static_cast<int>(std::clamp(std::floor(x / raster::tile_side), -1.0, 1.0 * most));
+      return int(clamp(std::floor(x / raster::tile_side), -1.0, 1.0 * most));
     };
-    const int left = std::max(tile(std::min(line.x0, line.x1) - wide, columns), 0);
-    const int right = std::min(tile(std::max(line.x0, line.x1) + wide, columns), columns - 1);
-    const int top = std::max(tile(std::min(line.y0, line.y1) - wide, rows), 0);
-    const int bottom = std::min(tile(std::max(line.y0, line.y1) + wide, rows), rows - 1);
+    const int left = max(tile(min(line.x0, line.x1) - wide, columns), 0);
+    const int right = min(tile(max(line.x0, line.x1) + wide, columns), columns - 1);
+    const int top = max(tile(min(line.y0, line.y1) - wide, rows), 0);
+    const int bottom = min(tile(max(line.y0, line.y1) + wide, rows), rows - 1);
 
-    const auto number = static_cast<uint32_t>(all.size());
+    const auto number = uint32_t(all.size());
     all.push_back(line);
     last = &stroke;
 
@@ -83,7 +81,7 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
         const double half = 0.5 * raster::tile_side;
         const double ox = x * raster::tile_side + half - line.x0, oy = y * raster::tile_side + half - line.y0;
         if (length > 0 && std::abs(ox * dy - oy * dx) / length > wide + 1.5 * half) continue;
-        by_tile[static_cast<size_t>(y * columns + x)].push_back(number);
+        by_tile[size_t(y * columns + x)].push_back(number);
       }
   }
 }

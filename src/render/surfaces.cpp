@@ -46,7 +46,7 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
     // What it sends up.
     for (size_t i = 0; i < 3; ++i) {
       const auto sent = [&](const raster::Lamp& lamp) {
-        return lamp.radiance[i] * (lamp.near ? 0.7F : std::max(dot(g.normal, lamp.vector), 0.0F));
+        return lamp.radiance[i] * (lamp.near ? 0.7F : max(dot(g.normal, lamp.vector), 0.0F));
       };
       float other = shot.lighting.ambient[i];
       for (size_t k = 1; k < shot.lighting.lamps.size(); ++k) other += sent(shot.lighting.lamps[k]);
@@ -60,9 +60,9 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
 
 double pattern_unit(const Scene& scene, Size size) {
   const Eye eye(camera_of(scene), size);
-  const double distance = std::max((eye.camera.target - eye.camera.eye).norm(), 1e-6);
+  const double distance = max((eye.camera.target - eye.camera.eye).norm(), 1e-6);
   const double width = 2 * distance * eye.tan_x;
-  return round_below(std::clamp(8 * median_radius(scene.world), width / 12, width / 2));
+  return round_below(clamp(8 * median_radius(scene.world), width / 12, width / 2));
 }
 
 const FixedName& name_of_fixed(const Scene& scene, size_t fixed) {
@@ -76,9 +76,9 @@ const FixedName& name_of_obstacle(const Scene& scene, size_t obstacle) {
 
 void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   double reach = (eye.camera.target - eye.camera.eye).norm();
-  for (const Vec3& p : scene.initial.position) reach = std::max(reach, (p - eye.camera.eye).norm());
-  reach = std::clamp(reach, 1e-6, 1e12);
-  shot.pattern.reach = static_cast<float>(reach);
+  for (const Vec3& p : scene.initial.position) reach = max(reach, (p - eye.camera.eye).norm());
+  reach = clamp(reach, 1e-6, 1e12);
+  shot.pattern.reach = float(reach);
   const double unit = double{shot.pattern.unit};
 
   shot.grounds.clear();
@@ -91,13 +91,13 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     pattern_axes(plane.normal, right, up);
     raster::Ground g{};
     g.normal = floats(eye.direction(plane.normal));
-    g.height = static_cast<float>(plane.normal.dot(eye.camera.eye - plane.point));
+    g.height = float(plane.normal.dot(eye.camera.eye - plane.point));
     g.right = floats(eye.direction(right)), g.up = floats(eye.direction(up));
 
     // The pattern repeats after two squares. Only this remainder of the eye's own coordinates has an effect, and only
     // this fits into a float.
-    g.right_offset = static_cast<float>(std::fmod(right.dot(eye.camera.eye), 2 * unit));
-    g.up_offset = static_cast<float>(std::fmod(up.dot(eye.camera.eye), 2 * unit));
+    g.right_offset = float(std::fmod(right.dot(eye.camera.eye), 2 * unit));
+    g.up_offset = float(std::fmod(up.dot(eye.camera.eye), 2 * unit));
     g.color = linear(name.color);
     shot.grounds.push_back(g);
   }

@@ -30,7 +30,7 @@ MeshTexture blank(uint64_t width, uint64_t height, uint64_t most_pixels) {
   if (width > most_pixels / height)
     throw std::runtime_error(fmt::format("has {} x {} pixels; at most {} in all are read. Remedy: scale it down", width,
                                          height, most_pixels));
-  return {static_cast<uint32_t>(width), static_cast<uint32_t>(height), vector<uint8_t>(4 * width * height)};
+  return {uint32_t(width), uint32_t(height), vector<uint8_t>(4 * width * height)};
 }
 
 MeshTexture png_texture(string_view bytes, uint64_t most_pixels) {
@@ -112,8 +112,8 @@ MeshTexture decoded_texture(string_view bytes, uint64_t most_pixels, uint64_t mo
   // Halved until it is small enough.
   uint32_t width = texture.width, height = texture.height;
   while (width > longest_texture_side || height > longest_texture_side || uint64_t{width} * height > most_kept) {
-    width = std::max(width / 2, 1U);
-    height = std::max(height / 2, 1U);
+    width = max(width / 2, 1U);
+    height = max(height / 2, 1U);
   }
   return width == texture.width ? texture : reduced(texture, width, height);
 }

@@ -16,16 +16,15 @@ namespace {
 const array<float, 256>& lights() {
   static const array<float, 256> made = [] {
     array<float, 256> light{};
-    for (size_t i = 0; i < light.size(); ++i)
-      light[i] = static_cast<float>(light_of_srgb(static_cast<double>(i) / 255));
+    for (size_t i = 0; i < light.size(); ++i) light[i] = float(light_of_srgb(double(i) / 255));
     return light;
   }();
   return made;
 }
 
 uint8_t byte_of(float light) {
-  const float root = std::sqrt(std::clamp(light, 0.0F, 1.0F));
-  return srgb_bytes().of_root[static_cast<size_t>(std::lround(root * SrgbBytes::steps))];
+  const float root = std::sqrt(clamp(light, 0.0F, 1.0F));
+  return srgb_bytes().of_root[size_t(std::lround(root * SrgbBytes::steps))];
 }
 
 /// The share of one long pixel in a short one.
@@ -39,9 +38,8 @@ vector<Share> shares(uint32_t from, uint32_t to) {
   vector<Share> out;
   for (uint64_t k = 0; k < to; ++k)
     for (uint64_t i = k * from / to; i * to < (k + 1) * from; ++i) {
-      const uint64_t low = std::max(i * to, k * from), high = std::min((i + 1) * to, (k + 1) * from);
-      out.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(k),
-                     static_cast<float>(high - low) / static_cast<float>(from)});
+      const uint64_t low = max(i * to, k * from), high = min((i + 1) * to, (k + 1) * from);
+      out.push_back({uint32_t(i), uint32_t(k), float(high - low) / float(from)});
     }
   return out;
 }
@@ -49,13 +47,13 @@ vector<Share> shares(uint32_t from, uint32_t to) {
 using Pixel = array<float, 4>;
 
 Pixel loaded(const uint8_t* rgba) {
-  const float opacity = static_cast<float>(rgba[3]) / 255;
+  const float opacity = float(rgba[3]) / 255;
   return {lights()[rgba[0]], lights()[rgba[1]], lights()[rgba[2]], opacity};
 }
 
 void store(const Pixel& sum, uint8_t* rgba) {
   for (size_t c = 0; c < 3; ++c) rgba[c] = sum[3] > 0 ? byte_of(sum[c] / sum[3]) : 0;
-  rgba[3] = static_cast<uint8_t>(std::lround(std::clamp(sum[3], 0.0F, 1.0F) * 255));
+  rgba[3] = uint8_t(std::lround(clamp(sum[3], 0.0F, 1.0F) * 255));
 }
 
 }  // namespace
@@ -90,7 +88,7 @@ vector<MeshTexture> coarser_levels(const MeshTexture& texture) {
   vector<MeshTexture> levels;
   const MeshTexture* last = &texture;
   while (last->width > 1 || last->height > 1) {
-    levels.push_back(reduced(*last, std::max(last->width / 2, 1U), std::max(last->height / 2, 1U)));
+    levels.push_back(reduced(*last, max(last->width / 2, 1U), max(last->height / 2, 1U)));
     last = &levels.back();
   }
   return levels;

@@ -41,7 +41,7 @@ Look Things::look_of(const Color& color, const optional<MeshUse>& mesh) {
   Look look{linear(color), mesh, 0, {}};
   if (mesh) {
     const DrawnFile file{mesh->file, mesh->own_colors};
-    look.file = static_cast<size_t>(std::ranges::find(files_, file) - files_.begin());
+    look.file = size_t(std::ranges::find(files_, file) - files_.begin());
     if (look.file == files_.size()) files_.push_back(file);
   }
   return look;
@@ -52,23 +52,22 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   raster::Solid solid;
   const Vec3 center = eye.point(position);
   solid.center = floats(center);
-  solid.radius = static_cast<float>(radius);
+  solid.radius = float(radius);
   solid.half = floats(volume.half);
   solid.kind = kind_of(volume.shape);
   solid.color = look.color;
 
   double around = radius;
   if (mesh) {
-    around = std::max(radius, look.size.radius);
-    solid.radius = static_cast<float>(around);
+    around = max(radius, look.size.radius);
+    solid.radius = float(around);
     raster::MeshShadow shadow;
     shadow.volume = solid.kind;
     shadow.middle = floats(eye.point(position + look.size.middle));
 
-    if (look.size.reach > 0)
-      shadow.outline = static_cast<int32_t>(look.file), shadow.reach = static_cast<float>(look.size.reach);
+    if (look.size.reach > 0) shadow.outline = int32_t(look.file), shadow.reach = float(look.size.reach);
     solid.kind = raster::SolidKind::mesh;
-    solid.part = static_cast<uint32_t>(shot.meshes.size());
+    solid.part = uint32_t(shot.meshes.size());
     shot.meshes.push_back(shadow);
   }
 
@@ -82,20 +81,19 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
   if (solid.kind != raster::SolidKind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
     solid.kind = raster::SolidKind::ball;
-    solid.radius = static_cast<float>(std::cbrt(0.2387 * volume.size()));
+    solid.radius = float(std::cbrt(0.2387 * volume.size()));
   }
 
   if (solid.kind == raster::SolidKind::mesh && !solid.shadow_only)
-    meshes_.push_back({look.file, eye.point(position + look.size.middle), look.mesh->scale,
-                       static_cast<int32_t>(shot.solids.size())});
+    meshes_.push_back(
+        {look.file, eye.point(position + look.size.middle), look.mesh->scale, int32_t(shot.solids.size())});
   shot.solids.push_back(solid);
 }
 
 void Things::take_mean(const Look& look, raster::Shot& shot) {
   if (!look.size.mean) return;
   raster::Float3& color = shot.solids.back().color;
-  if (!meshes_.empty() && meshes_.back().solid == static_cast<int32_t>(shot.solids.size()) - 1)
-    meshes_.back().plain = color;
+  if (!meshes_.empty() && meshes_.back().solid == int32_t(shot.solids.size()) - 1) meshes_.back().plain = color;
   color = look.size.mean->with(color);
 }
 
@@ -111,10 +109,10 @@ void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
     raster::Solid solid;
     solid.kind = raster::SolidKind::wall;
     solid.center = floats(eye.point(wall.center));
-    solid.radius = static_cast<float>(std::hypot(wall.half_width, wall.half_height));
-    solid.half = {static_cast<float>(wall.half_width), static_cast<float>(wall.half_height), 0};
+    solid.radius = float(std::hypot(wall.half_width, wall.half_height));
+    solid.half = {float(wall.half_width), float(wall.half_height), 0};
 
-    solid.part = static_cast<uint32_t>(shot.walls.size());
+    solid.part = uint32_t(shot.walls.size());
     shot.walls.push_back({floats(eye.direction(wall.right)), floats(eye.direction(wall.up)),
                           floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal))});
 

@@ -81,7 +81,7 @@ string ended_by(const Scene& scene, const Tally& tally) {
 double greatest_kinetic(const World& world, const StoredEnergy& start, const StoredEnergy& end, const Tally& tally) {
   const double at_ends = start.kinetic + end.kinetic;
   const auto [speed, body] = tally.fastest;
-  return body == no_entity ? at_ends : std::max(at_ends, 0.5 * world.mass[body] * speed * speed);
+  return body == no_entity ? at_ends : max(at_ends, 0.5 * world.mass[body] * speed * speed);
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ class Runs {
     vector<double> most;
     double greatest = 0;
     for (size_t k = 0; k < a.size(); ++k) {
-      for (size_t i = 0; i < a[k].size(); ++i) greatest = std::max(greatest, (a[k][i] - b[k][i]).norm());
+      for (size_t i = 0; i < a[k].size(); ++i) greatest = max(greatest, (a[k][i] - b[k][i]).norm());
       most.push_back(greatest);
     }
     return most;
@@ -94,7 +94,7 @@ class Runs {
 /// The number of instants before differences exceed a tolerance (m).
 size_t within(const vector<double>& differences, double tolerance) {
   const auto beyond = std::ranges::find_if(differences, [&](double d) { return !(d <= tolerance); });
-  return static_cast<size_t>(beyond - differences.begin());
+  return size_t(beyond - differences.begin());
 }
 
 /// Steps with clearly smaller errors. Where doubles have no smaller ones, clearly greater errors.
@@ -116,7 +116,7 @@ struct Accuracy {
   /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
   double difference = 0;
   // In s: the time after which no steps give positions within the tolerance. Infinity: never.
-  double right_until = std::numeric_limits<double>::infinity();
+  double right_until = numeric_limits<double>::infinity();
   /// In m: the difference of the finest runs after that.
   double beyond = 0;
   /// Whether the tolerance is met until then.
@@ -143,7 +143,7 @@ class Settling {
   /// Records until when the tolerance is met, from the differences of two runs of a kind.
   void note(const vector<double>& differences) {
     const size_t good = within(differences, tolerance_);
-    accuracy_.right_until = std::numeric_limits<double>::infinity();
+    accuracy_.right_until = numeric_limits<double>::infinity();
     accuracy_.difference = good > 0 ? differences[good - 1] : 0;
     accuracy_.beyond = differences.back();
     if (good < differences.size()) accuracy_.right_until = good > 0 ? runs_.instants()[good - 1] : 0;
@@ -159,9 +159,9 @@ class Settling {
 
   /// Begins with step errors of `coarsest` at most. Returns the finer of the last two runs.
   TrackedRun settle_adaptive(double tolerance, double coarsest) {
-    double least = std::numeric_limits<double>::infinity();  // m
-    for (const double radius : scene_.world.radius) least = std::min(least, radius);
-    StepChoice steps{way_.step, std::clamp(first_share * tolerance / least, finest_error, coarsest)};
+    double least = numeric_limits<double>::infinity();  // m
+    for (const double radius : scene_.world.radius) least = min(least, radius);
+    StepChoice steps{way_.step, clamp(first_share * tolerance / least, finest_error, coarsest)};
     for (;;) {
       const TrackedRun coarse = runs_.track(way_, steps);
       // In islands greater errors are none, so that a finer run would not show what they are.
@@ -171,7 +171,7 @@ class Settling {
       }
 
       const bool finest = steps.error <= finest_error * finer;
-      steps.error = std::max(steps.error / finer, finest_error);
+      steps.error = max(steps.error / finer, finest_error);
       TrackedRun fine = runs_.track(way_, steps, disturbance);
       const vector<double> differences = Runs::differences(coarse, fine);
       accuracy_.steps = steps;
@@ -179,8 +179,8 @@ class Settling {
 
       if (differences.back() <= tolerance || finest) return fine;
       // Scale by what is still missing.
-      steps.error *= std::min(1.0, tolerance / differences.back());
-      steps.error = std::max(steps.error, finest_error * finer);
+      steps.error *= min(1.0, tolerance / differences.back());
+      steps.error = max(steps.error, finest_error * finer);
     }
   }
 
@@ -197,14 +197,14 @@ class Settling {
                              ? within(runs_.instants(), accuracy_.right_until)
                              : runs_.instants().size();
     accuracy_.reached = false;
-    accuracy_.difference = std::numeric_limits<double>::infinity();
+    accuracy_.difference = numeric_limits<double>::infinity();
     accuracy_.steps = {};
 
     string trouble;
     // In m: with twice the step, and with four times the step.
     double before = 0, coarse = 0;
-    double step = std::min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
-    const double bodies = static_cast<double>(scene_.world.body_count());
+    double step = min(way_.duration, longest_choice * default_step(scene_.world, scene_.initial));
+    const double bodies = double(scene_.world.body_count());
 
     for (int vain = 0; vain < most_vain_halvings && way_.duration / step * bodies <= most_steps; step *= 0.5) {
       vector<double> off;
@@ -252,7 +252,7 @@ class Settling {
 
 /// The number of instants with a small perturbation that suffices to measure its growth.
 size_t enough(const vector<double>& apart) {
-  return std::min(least_small, apart.size() / 2);
+  return min(least_small, apart.size() / 2);
 }
 
 /// Measures growth from the distances of two runs (m) at instants (s). The first `small` of them are small.
@@ -289,7 +289,7 @@ Vec3 rounded_otherwise(Vec3 place) {
     // Steps of the golden section around a circle, as many as the coordinate's bits say (Knuth, The Art of Computer
     // Programming 3, 6.4).
     const uint64_t turned = std::bit_cast<uint64_t>(std::abs(x)) * 0x9e3779b97f4a7c15;
-    x *= 1 + place_disturbance * away_from_zero(std::ldexp(static_cast<double>(turned), -64));
+    x *= 1 + place_disturbance * away_from_zero(std::ldexp(double(turned), -64));
   }
   return place;
 }
@@ -316,8 +316,7 @@ string shortfall_of(const Scene& scene, const Accuracy& accuracy, const Growth& 
 }  // namespace
 
 vector<double> uneven_instants(double from, double to, size_t bodies) {
-  const int count = static_cast<int>(
-      std::clamp(places_kept / std::max(static_cast<double>(bodies), 1.0), 8.0, double{most_instants}));
+  const int count = int(clamp(places_kept / max(double(bodies), 1.0), 8.0, double{most_instants}));
   vector<double> instants;
   for (int k = 0; k < count; ++k) instants.push_back(from + (to - from) * (k + golden) / count);
   return instants;
@@ -381,8 +380,8 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const function
     const vector<double> finer_off = Runs::differences(run, runs.track(way, finer_steps(scene, way, engine.steps)));
     // Two runs that are the same to the last bit show no error.
     const bool unknown = !inexact_flights && finer_off.back() == 0;
-    assessment.integrator = unknown ? std::numeric_limits<double>::quiet_NaN() : finer_off.back();
-    for (size_t k = 0; k < off.size(); ++k) off[k] = std::max(off[k], finer_off[k]);
+    assessment.integrator = unknown ? numeric_limits<double>::quiet_NaN() : finer_off.back();
+    for (size_t k = 0; k < off.size(); ++k) off[k] = max(off[k], finer_off[k]);
   }
   // Impacts at one instant: what the choice of their law changes. It is no error of the run.
   if (run.tally.shared.instants + run.tally.shared.without_room > 0) {

@@ -80,7 +80,7 @@ void Checkpoints::keep() {
 void Checkpoints::keep_if_due() {
   // Keeping takes at most half of the time.
   const std::chrono::duration<double> interval(settings_.checkpoint_s);
-  if (stage_ == nullptr || Clock::now() - kept_ < std::max<std::chrono::duration<double>>(interval, cost_)) return;
+  if (stage_ == nullptr || Clock::now() - kept_ < max<std::chrono::duration<double>>(interval, cost_)) return;
   const char* const why = obstacle();
   if (why == nullptr) return keep();
   say(why);

@@ -43,7 +43,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
 
   options.one_by_one = request.steps.one_by_one;
   options.quality = &quality_of(simulate.contact.quality);
-  options.threads = static_cast<int>(share_of_processors());
+  options.threads = int(share_of_processors());
   if (request.steps.error > 0) options.step_error = request.steps.error;
   return options;
 }
@@ -128,8 +128,7 @@ EngineChoice choose_engine(const Scene& scene) {
 
 unique_ptr<Simulator> make_simulator(const World& world, const State& initial, const Simulate& simulate,
                                      Recording recording, const StepChoice& steps) {
-  return makers[static_cast<size_t>(engine_of(world, simulate))](
-      {world, initial, simulate, std::move(recording), steps});
+  return makers[size_t(engine_of(world, simulate))]({world, initial, simulate, std::move(recording), steps});
 }
 
 unique_ptr<Simulator> make_simulator(const Scene& scene, Recording recording, const StepChoice& steps) {

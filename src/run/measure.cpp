@@ -66,11 +66,11 @@ bool compares(double value, Relation relation, double limit) {
 }
 
 string_view name_of(Quantity quantity) {
-  return quantities[static_cast<size_t>(quantity)].name;
+  return quantities[size_t(quantity)].name;
 }
 
 string_view meaning_of(Quantity quantity) {
-  return quantities[static_cast<size_t>(quantity)].meaning;
+  return quantities[size_t(quantity)].meaning;
 }
 
 string_view unit_of(string_view column) {
@@ -89,7 +89,7 @@ string label_of(string_view column) {
   if (!call.empty()) {
     string of = label_of(inside);
     const bool time = call.starts_with("time_of_");
-    if (time) of.resize(std::min(of.size(), of.rfind(" (")));
+    if (time) of.resize(min(of.size(), of.rfind(" (")));
     return time ? fmt::format("time of the {}imum {} (s)", call.substr(8), of) : fmt::format("{}imum {}", call, of);
   }
 
@@ -97,8 +97,7 @@ string label_of(string_view column) {
   string label(column.substr(0, column.size() - (text == nullptr ? 0 : text->suffix.size())));
   // Names of bodies stay unchanged.
   const size_t dot = label.rfind('.');
-  std::replace(dot == string::npos ? label.begin() : label.begin() + static_cast<ptrdiff_t>(dot), label.end(), '_',
-               ' ');
+  std::replace(dot == string::npos ? label.begin() : label.begin() + ptrdiff_t(dot), label.end(), '_', ' ');
   if (dot != string::npos) label[dot] = ' ';
 
   for (const string_view kind : {"kinetic", "potential", "total"})

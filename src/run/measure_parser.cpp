@@ -78,7 +78,7 @@ bool is_kind(string_view word) {
 }
 
 optional<Quantity> find_quantity(string_view name) {
-  for (int k = 0; k <= static_cast<int>(Quantity::kinetic); ++k)
+  for (int k = 0; k <= int(Quantity::kinetic); ++k)
     if (name_of(static_cast<Quantity>(k)) == name) return static_cast<Quantity>(k);
   return nullopt;
 }
@@ -86,7 +86,7 @@ optional<Quantity> find_quantity(string_view name) {
 Quantity quantity_named(string_view name, string_view whole) {
   if (const auto quantity = find_quantity(name)) return *quantity;
   vector<string_view> names;
-  for (int k = 0; k <= static_cast<int>(Quantity::kinetic); ++k) names.push_back(name_of(static_cast<Quantity>(k)));
+  for (int k = 0; k <= int(Quantity::kinetic); ++k) names.push_back(name_of(static_cast<Quantity>(k)));
   const string near = near_name(name, names);
   throw MeasureError(fmt::format("{}: no quantity {}{}", in_backticks(whole), in_backticks(name),
                                  near.empty() ? fmt::format("; the quantities are {}", joined(names, ", ")) : near));
@@ -156,8 +156,8 @@ class FormulaParts {
 
   /// Where a span of the formula stands in the text of the measure.
   TextSpan place(const TextSpan& span) const {
-    const size_t begin = std::min(span.at, places_.size() - 1),
-                 last = std::min(span.at + std::max<size_t>(span.length, 1), places_.size()) - 1;
+    const size_t begin = min(span.at, places_.size() - 1),
+                 last = min(span.at + max<size_t>(span.length, 1), places_.size()) - 1;
     return {places_[begin].at, places_[last].at + places_[last].length - places_[begin].at};
   }
 
@@ -277,7 +277,7 @@ void read_count(string_view inside, string_view whole, span<const string> own, M
     measure.relation = text.relation;
     read_quantity(quantity, false, measure);
     if (limit.empty()) break;
-    read_formula(limit, static_cast<size_t>(limit.data() - whole.data()), own, measure);
+    read_formula(limit, size_t(limit.data() - whole.data()), own, measure);
     measure.name = fmt::format("count({} {} {})", quantity, text.sign, limit);
     return;
   }
@@ -330,7 +330,7 @@ void read_region(string_view text, Measure& measure) {
 }  // namespace
 
 double formula_value(const Measure& measure, span<const double> parts) {
-  constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+  constexpr double undefined = numeric_limits<double>::quiet_NaN();
   if (!std::ranges::all_of(parts, [](double value) { return std::isfinite(value); })) return undefined;
   try {
     return Formula(measure.formula, names_of_parts(measure)).value(parts);
@@ -348,7 +348,7 @@ Measure parse_measure(string_view text, span<const string> own) {
   if (name.starts_with('=')) {
     measure.form = MeasureForm::expression;
     const string_view formula = trimmed(name.substr(1));
-    read_formula(formula, static_cast<size_t>(formula.data() - text.data()), own, measure);
+    read_formula(formula, size_t(formula.data() - text.data()), own, measure);
     return measure;
   }
 

@@ -112,7 +112,7 @@ vector<EntityRange> things_named(string_view name, const Measure& measure, const
   for (size_t k = 0; k < scene.roster.fixed.size(); ++k) {
     const string_view fixed = scene.roster.fixed[k].name;
     names.push_back(fixed);
-    if (is_named(fixed, name)) things.push_back({scene.world.body_count() + static_cast<Entity>(k), 1});
+    if (is_named(fixed, name)) things.push_back({scene.world.body_count() + Entity(k), 1});
   }
 
   for (size_t k = 0; k < scene.roster.strings.size(); ++k) {

@@ -12,7 +12,7 @@
 namespace carom {
 namespace {
 
-constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double undefined = numeric_limits<double>::quiet_NaN();
 
 bool any_has(const vector<EntityRange>& ranges, Entity e) {
   return std::ranges::any_of(ranges, [&](const EntityRange& range) { return range.has(e); });
@@ -127,7 +127,7 @@ double Measuring::counted(const Measure& measure, const MeasuredRun& run) const 
 
 const Extremes& Measuring::extremes(const Measure& measure, const MeasuredRun& run) const {
   const auto found = std::ranges::find(watched_, watched_by(measure, scene_));
-  return run.extremes[static_cast<size_t>(found - watched_.begin())];
+  return run.extremes[size_t(found - watched_.begin())];
 }
 
 /// Bodies inside a region that are still in the world.

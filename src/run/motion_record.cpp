@@ -16,7 +16,7 @@ RecordSink record_into(FlightsFile& file, double end) {
 
 function<unique_ptr<Simulator>()> recorded_motion(const Scene& scene, const EngineChoice& engine,
                                                   const FilePlace& place, const function<void()>& stop_check) {
-  const auto file = std::make_shared<FlightsFile>(place, scene, FlightsFile::nameless);
+  const auto file = make_shared<FlightsFile>(place, scene, FlightsFile::nameless);
   RecordSink sink = record_into(*file, scene.simulate.duration);
   const auto simulator = make_simulator(scene, {.collisions = file->has_collisions(), .paths = true}, engine.steps);
   MotionSink* const sinks[] = {&sink};

@@ -41,7 +41,7 @@ class Carrying {
   optional<double> next_instant() const {
     optional<double> next;
     each([&](MotionSink& sink) {
-      if (sink.more()) next = std::min(next.value_or(sink.time()), sink.time());
+      if (sink.more()) next = min(next.value_or(sink.time()), sink.time());
     });
     return next;
   }
@@ -56,7 +56,7 @@ class Carrying {
       // Multiples of the slice, so that round instants stay round.
       double slices = std::floor(before / slice) + 1;
       if (!(slices * slice > before)) ++slices;
-      const double next = std::min(time, slices * slice);
+      const double next = min(time, slices * slice);
       advance_to(next > before ? next : time);
 
       if (!record() && !(simulator_.time() > before) && simulator_.tally().collisions() == collisions_before &&

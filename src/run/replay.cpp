@@ -54,19 +54,19 @@ void Replay::advance_to(double time) {
   collisions_.clear();
 
   // The state at the run's end stays. It is after whatever happens then.
-  const double end = end_ ? end_->time : std::numeric_limits<double>::infinity();
+  const double end = end_ ? end_->time : numeric_limits<double>::infinity();
   const bool reaches_end = time >= end;
   if (time > end && time_ < end) time = end;
 
   while (more_ && (reaches_end || coming_.from() <= time)) {
     // Stop before the next part, possibly in the middle of an instant.
     if (passed_.size() + collisions_.size() >= path_buffer) {
-      time_ = std::max(time_, std::nextafter(coming_.from(), 0));
+      time_ = max(time_, std::nextafter(coming_.from(), 0));
       return;
     }
     take_coming();
   }
-  time_ = std::max(time, time_);
+  time_ = max(time, time_);
   if (!more_ && time_ >= end) tally_.end = end_;
 }
 
@@ -106,7 +106,7 @@ Vec3 Replay::force_at(Entity body, double time, const Vec3& x, const Vec3& v) co
 /// Computes the state of a body at an instant of its present piece.
 void Replay::place(size_t body, const Instant& at) {
   const PathPiece& piece = now_[body];
-  const Entity i = static_cast<Entity>(body);
+  const Entity i = Entity(body);
   const Instant start = instant(piece.start);
   Vec3& x = state_.position[body];
   Vec3& v = state_.velocity[body];
@@ -137,7 +137,7 @@ void Replay::place(size_t body, const Instant& at) {
 const State& Replay::state() {
   if (fresh_) return state_;
 
-  state_.time = end_ ? std::min(time_, end_->time) : time_;
+  state_.time = end_ ? min(time_, end_->time) : time_;
   state_.position.resize(now_.size());
   state_.velocity.resize(now_.size());
   const Instant at{state_.time, 0};
@@ -156,7 +156,7 @@ const State& Replay::state() {
 }
 
 unique_ptr<Simulator> replay_from(unique_ptr<FlightsReader> reader, const World& world) {
-  const std::shared_ptr<FlightsReader> shared = std::move(reader);
+  const shared_ptr<FlightsReader> shared = std::move(reader);
   return make_unique<Replay>(
       world, [shared](Recorded& recorded) { return shared->next(recorded); }, shared->tally(),
       shared->has_collisions());

@@ -68,8 +68,8 @@ bool DrawingSink::is_picture_due(size_t stream) {
 }
 
 double DrawingSink::time() {
-  double next = std::min(part().timeline().time(), history_.next_sample());
-  for (const PictureSeries& series : series_) next = std::min(next, series.next_instant());
+  double next = min(part().timeline().time(), history_.next_sample());
+  for (const PictureSeries& series : series_) next = min(next, series.next_instant());
   return next;
 }
 

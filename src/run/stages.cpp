@@ -19,7 +19,7 @@ namespace {
 uint64_t peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return static_cast<uint64_t>(usage.ru_maxrss) * 1024;
+  return uint64_t(usage.ru_maxrss) * 1024;
 }
 
 /// Whether something that the scene requests is spread over the whole run, which may end early.

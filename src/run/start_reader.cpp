@@ -58,9 +58,9 @@ string without_slash(string path) {
 
 /// What of an error's text is the fault, and what the remedy: its first line, and the others.
 StartError in_parts(const string& text) {
-  const size_t line = std::min(text.find('\n'), text.size());
-  string remedy = text.substr(std::min(line + 1, text.size()));
-  remedy.erase(0, std::min(remedy.find_first_not_of(' '), remedy.size()));
+  const size_t line = min(text.find('\n'), text.size());
+  string remedy = text.substr(min(line + 1, text.size()));
+  remedy.erase(0, min(remedy.find_first_not_of(' '), remedy.size()));
   return {text.substr(0, line), remedy};
 }
 
@@ -167,7 +167,7 @@ struct LastRead {
 }  // namespace
 
 function<FormerState(const string& folder, optional<double> at)> start_reader(const LoadOptions& options) {
-  const auto last = std::make_shared<LastRead>();
+  const auto last = make_shared<LastRead>();
   return [last, options](const string& folder, optional<double> at) {
     const string path = without_slash(folder);
     try {

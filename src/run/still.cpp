@@ -34,10 +34,10 @@ Image draw_still(const Scene& scene, const string& run, double time, const funct
   const double piece = scene.simulate.duration / 1000;
   for (;;) {
     // States before that of the picture are needed for motion blur and trails.
-    const double next = std::min({time, history.next_sample(), series.next_instant()});
+    const double next = min({time, history.next_sample(), series.next_instant()});
     while (simulator->time() < next) {
       stop_check();
-      const double soon = std::min(next, simulator->time() + piece);
+      const double soon = min(next, simulator->time() + piece);
       simulator->advance_to(soon > simulator->time() ? soon : next);
       record();
     }

@@ -36,7 +36,7 @@ constexpr ChartSource chart_sources[] = {{"energy", "energy.csv", "energy", true
 constexpr uint64_t rows_between = 1000;
 
 /// The height of a body that has merged into another.
-constexpr double merged = std::numeric_limits<double>::quiet_NaN();
+constexpr double merged = numeric_limits<double>::quiet_NaN();
 
 class ChartReader {
  public:
@@ -69,7 +69,7 @@ class ChartReader {
   /// The part that is done at a time of one of at most three files.
   double share(double time) const {
     const double duration = end_of(scene_);
-    return (parts_done_ + (duration > 0 ? std::min(time / duration, 1.0) : 0)) / 3;
+    return (parts_done_ + (duration > 0 ? min(time / duration, 1.0) : 0)) / 3;
   }
 
   void energy() {

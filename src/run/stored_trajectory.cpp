@@ -13,7 +13,7 @@ bool read_motion(const vector<string_view>& cells, size_t first, Vec3& position,
   for (size_t k = 0; k < numbers; ++k) {
     const auto number = number_in(cells[first + k]);
     if (!number) return false;
-    (k < 3 ? position : velocity)[static_cast<int>(k % 3)] = *number;
+    (k < 3 ? position : velocity)[int(k % 3)] = *number;
   }
   return true;
 }

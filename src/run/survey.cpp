@@ -24,7 +24,7 @@ Framing::Framing(span<MovingCamera* const> cameras) : timeline_(duration_of(came
     Framed& framed = framed_.emplace_back(Framed{camera, CameraFit(camera->scene(), camera->size()), {}});
     for (const Ticks& ticks : shown_instants(camera->scene())) {
       framed.streams.push_back(timeline_.add(ticks));
-      if (ticks.count() > 0) end_ = std::max(end_, ticks.at(ticks.last()));
+      if (ticks.count() > 0) end_ = max(end_, ticks.at(ticks.last()));
     }
   }
   if (any()) advance();

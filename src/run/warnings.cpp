@@ -74,8 +74,8 @@ class Warnings {
   void check_energy() {
     const EnergyTotals& energy = summary_.energy;
     const double residual = energy.residual;
-    const double least = energy_rounding * std::max(std::abs(energy.start), std::abs(energy.end));
-    if (std::isfinite(residual) && std::abs(residual) <= std::max(residual_share * energy.turnover, least)) return;
+    const double least = energy_rounding * max(std::abs(energy.start), std::abs(energy.end));
+    if (std::isfinite(residual) && std::abs(residual) <= max(residual_share * energy.turnover, least)) return;
     add("energy", fmt::format("the method {} {:.3g} J beyond impacts and work, {:.2g} of the energy turned over: {}",
                               residual > 0 ? "gained" : "lost", std::abs(residual),
                               std::abs(residual) / energy.turnover, remedy()));
@@ -141,8 +141,8 @@ class Warnings {
     if (doubts.contact_made > residual_share * summary_.energy.turnover)
       add("contact", fmt::format("errors of lasting contact made {:.3g} J, {:.2g} of the energy turned over: {}",
                                  doubts.contact_made, doubts.contact_made / summary_.energy.turnover, remedy()));
-    const auto unsolved = static_cast<double>(doubts.unsolved_steps);
-    if (!(unsolved > unsolved_share * static_cast<double>(doubts.crowd_steps))) return;
+    const auto unsolved = double(doubts.unsolved_steps);
+    if (!(unsolved > unsolved_share * double(doubts.crowd_steps))) return;
     add("contact", fmt::format("forces were not as accurate as they should be in {} of {} steps of lasting contact: {}",
                                doubts.unsolved_steps, doubts.crowd_steps, remedy()));
   }
@@ -161,7 +161,7 @@ class Warnings {
   void check_digits() {
     const double size = smallest_size(scene_.world);
     double farthest = 0;
-    for (const Vec3& x : end_.position) farthest = std::max(farthest, x.cwiseAbs().maxCoeff());
+    for (const Vec3& x : end_.position) farthest = max(farthest, x.cwiseAbs().maxCoeff());
     if (place_rounding * farthest > place_resolution * size)
       add("place",
           fmt::format("bodies are {:.3g} m from the origin, where doubles resolve positions to {:.2g} m: shorten "

@@ -183,7 +183,7 @@ span<const AbsentWord> absent_words() {
 
 const AbsentWord* find_absent_word(string_view word) {
   string plain;
-  for (const char c : word) plain += c == '_' || c == '-' ? ' ' : c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  for (const char c : word) plain += c == '_' || c == '-' ? ' ' : c >= 'A' && c <= 'Z' ? char(c + 32) : c;
   const string single = plain.ends_with('s') ? plain.substr(0, plain.size() - 1) : plain;
   for (const string& form : {plain, single})
     for (const AbsentWord& row : all_words) {

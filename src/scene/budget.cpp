@@ -17,7 +17,7 @@ namespace carom {
 
 Budget Budget::without_outputs() const {
   Budget budget = *this;
-  budget.frames = budget.rows = budget.keys = budget.files = std::numeric_limits<uint64_t>::max();
+  budget.frames = budget.rows = budget.keys = budget.files = numeric_limits<uint64_t>::max();
   return budget;
 }
 
@@ -35,9 +35,9 @@ vector<Excess> excesses(const Output& output, double duration, double bodies, co
     if (kind.rows.empty() || !kind.asked(output)) continue;
     const double instants = std::ceil(duration / kind.every(output)) + 1, rows = instants * bodies;
     const uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
-    if (rows > static_cast<double>(most_rows)) {
+    if (rows > double(most_rows)) {
       found.push_back({&kind, rows, string(kind.rows), most_rows});
-    } else if (!kind.series.folder.empty() && instants > static_cast<double>(budget.files)) {
+    } else if (!kind.series.folder.empty() && instants > double(budget.files)) {
       found.push_back({&kind, instants, fmt::format("files in {}/", kind.series.folder), budget.files});
     }
   }

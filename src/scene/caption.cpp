@@ -35,7 +35,7 @@ Place place_in(const Node& node, size_t at, size_t length) {
   const size_t size = node.text.size();
   if (node.place.length != size && node.place.length != size + 2) return node.place;
   const size_t quote = node.place.length == size ? 0 : 1;
-  return {node.place.source, static_cast<uint32_t>(node.place.offset + quote + at), static_cast<uint32_t>(length)};
+  return {node.place.source, uint32_t(node.place.offset + quote + at), uint32_t(length)};
 }
 
 /// Names are replaced by the values at their paths, except those that a run fills in.

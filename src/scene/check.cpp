@@ -111,7 +111,7 @@ class Checker : ValueChecker {
 
   /// Whether an unknown key of the map is probably this field misspelt. Then one error covers both.
   static bool is_misspelt_in(const Node& node, const Kind& kind, const Field& field) {
-    for (size_t i = 0; i < std::min(node.keys.size(), most_suggestions); ++i) {
+    for (size_t i = 0; i < min(node.keys.size(), most_suggestions); ++i) {
       const Key& key = node.keys[i];
       if (find_field(kind, key.text) != nullptr) continue;
       const string near = meant(key.text, kind);
@@ -173,7 +173,7 @@ class Checker : ValueChecker {
 
   /// A decimal comma in a flow map: `mass: 1,5` is a 1 and a key 5 without a value. Marks both as one number.
   bool decimal_comma(const Key& key, const Node& value, Node& map_node) {
-    const auto i = static_cast<size_t>(&key - map_node.keys.data());
+    const auto i = size_t(&key - map_node.keys.data());
     if (i == 0 || !value.is(Node::Kind::null)) return false;
 
     // The two parts stand side by side, and make a number.
@@ -202,7 +202,7 @@ class Checker : ValueChecker {
       // What follows the colon, without characters that look like one.
       while (const auto found = lookalike_at(key.text, tail)) {
         char32_t code = 0;
-        tail += static_cast<size_t>(utf8_length(key.text, tail, code));
+        tail += size_t(utf8_length(key.text, tail, code));
       }
 
       const string suggestion = find_field(kind, head) != nullptr || is_name(head) ? string(head) : "key";

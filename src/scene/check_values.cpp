@@ -89,7 +89,7 @@ bool ValueChecker::number(Node& value, const Field& field, const string& name, c
 bool ValueChecker::whole(Node& value, const Field& field, const string& name) {
   if (value.is(Node::Kind::scalar) && !value.quoted && !value.bad) {
     const optional<uint64_t> parsed = parse_whole(value.text);
-    if (parsed && contains(field.range, static_cast<double>(*parsed))) return true;
+    if (parsed && contains(field.range, double(*parsed))) return true;
     if (parse_number(value.text)) {
       refuse(value, fmt::format("{} is {}", name, value.text), "expected " + expected(field));
       return false;

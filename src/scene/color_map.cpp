@@ -34,10 +34,10 @@ constexpr array<MapColors, 5> maps = {{
 }  // namespace
 
 Color color_in(ColorMap map, double at) {
-  const MapColors& points = maps[static_cast<size_t>(map)];
-  const double place = std::clamp(at, 0.0, 1.0) * static_cast<double>(points.size() - 1);
-  const size_t below = std::min(static_cast<size_t>(place), points.size() - 2);
-  const double part = place - static_cast<double>(below);
+  const MapColors& points = maps[size_t(map)];
+  const double place = clamp(at, 0.0, 1.0) * double(points.size() - 1);
+  const size_t below = min(size_t(place), points.size() - 2);
+  const double part = place - double(below);
   const Color a = from_rgb(points[below]), b = from_rgb(points[below + 1]);
   const auto between = [part](double low, double high) { return (1 - part) * low + part * high; };
   return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b)};

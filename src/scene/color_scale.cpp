@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = numeric_limits<double>::infinity();
 constexpr double most_collisions = 10;
 
 /// The way (m) from x along the unit vector `down` to the nearest plane.
@@ -22,7 +22,7 @@ double way_to_plane(const World& world, const Vec3& x, const Vec3& down) {
   double way = infinity;
   for (const Plane& plane : world.planes) {
     const double approach = -plane.normal.dot(down), height = plane.normal.dot(x - plane.point);
-    if (approach > 0 && height >= 0) way = std::min(way, height / approach);
+    if (approach > 0 && height >= 0) way = min(way, height / approach);
   }
   return way;
 }
@@ -31,10 +31,10 @@ double way_to_plane(const World& world, const Vec3& x, const Vec3& down) {
 double way_to_lowest(const World& world, const Vec3& x, const Vec3& down) {
   double way = -infinity;
   for (const Wall& wall : world.walls)
-    way = std::max(way, down.dot(wall.center - x) + wall.half_width * std::abs(wall.right.dot(down)) +
-                            wall.half_height * std::abs(wall.up.dot(down)));
+    way = max(way, down.dot(wall.center - x) + wall.half_width * std::abs(wall.right.dot(down)) +
+                       wall.half_height * std::abs(wall.up.dot(down)));
   for (const Obstacle& obstacle : world.obstacles)
-    way = std::max(way, down.dot(obstacle.center - x) + obstacle.volume.support(down));
+    way = max(way, down.dot(obstacle.center - x) + obstacle.volume.support(down));
   return way;
 }
 
@@ -42,7 +42,7 @@ enum class Rounding : uint8_t { down, up };
 
 /// `value` > 0, rounded to two digits: 0.206155 up to 0.21. Two digits keep most masses and radii of authors.
 double to_two_digits(double value, Rounding rounding) {
-  const int exponent = static_cast<int>(std::floor(std::log10(value))) - 1;
+  const int exponent = int(std::floor(std::log10(value))) - 1;
   const double power = std::pow(10, std::abs(exponent));
   const double units = exponent < 0 ? value * power : value / power;
   // 0.3 / 0.01 is not 30.
@@ -63,8 +63,8 @@ ColorScale scale_from_scene(const Scene& scene, const Coloring& coloring) {
   const World& world = scene.world;
   double least = infinity, greatest = 0;
   const auto note = [&](double value) {
-    least = std::min(least, value);
-    greatest = std::max(greatest, value);
+    least = min(least, value);
+    greatest = max(greatest, value);
   };
 
   switch (coloring.by.value_or(ColorQuantity::group)) {

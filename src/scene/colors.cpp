@@ -189,7 +189,7 @@ optional<Color> parse_color(string_view text) {
   // A name, in any case of letters.
   string lower(text);
   for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    if (c >= 'A' && c <= 'Z') c = char(c + 32);
   }
 
   const auto* found = std::lower_bound(std::begin(named_colors), std::end(named_colors), lower,

@@ -59,7 +59,7 @@ class Bodies {
       last_family = family;
       const Color chosen = body_color(things - 1);
       const BodyColor color = keys.color.value_or(BodyColor{chosen, nullopt});
-      scene_.roster.bodies.push_back({body.key->text, body.first, static_cast<Entity>(body.count), body.group,
+      scene_.roster.bodies.push_back({body.key->text, body.first, Entity(body.count), body.group,
                                       color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by});
 
       // A body with an error keeps its number.

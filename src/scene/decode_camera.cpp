@@ -45,19 +45,19 @@ optional<double> touches(const array<Cubic, 3>& eye, const array<Cubic, 3>& targ
   for (size_t i = 0; i < 3; ++i) {
     const size_t j = (i + 1) % 3, k = (i + 2) % 3;
     for (size_t power = 0; power < 4; ++power)
-      across[i][power] = sight[j][power] * up[static_cast<int>(k)] - sight[k][power] * up[static_cast<int>(j)];
+      across[i][power] = sight[j][power] * up[int(k)] - sight[k][power] * up[int(j)];
     add_square(distance2, across[i]);
   }
 
   const auto at = [](const array<Cubic, 3>& of, double s) {
     return Vec3(value(of[0], s), value(of[1], s), value(of[2], s));
   };
-  const double length = std::max(at(sight, 0).norm(), at(sight, 1).norm());
+  const double length = max(at(sight, 0).norm(), at(sight, 1).norm());
   // The distance itself from its vector: the polynomial of its square cancels.
   const Roots turning = roots_between(distance2.derivative(), 0, 1);
 
   for (int i = 0; i < turning.count; ++i) {
-    const double s = turning.at[static_cast<size_t>(i)];
+    const double s = turning.at[size_t(i)];
     if (!(at(across, s).norm() > least_sine * length)) return s;
   }
   return nullopt;

@@ -69,7 +69,7 @@ void check_coloring(const View& body, const Coloring& coloring, const Scene& sce
 }
 
 void check_colors(const Inventory& inventory, const Scene& scene, Diagnostics& diagnostics) {
-  for (size_t i = 0; i < std::min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
+  for (size_t i = 0; i < min(inventory.bodies.size(), scene.roster.bodies.size()); ++i) {
     const optional<Coloring>& coloring = scene.roster.bodies[i].coloring;
     if (!coloring) continue;
     check_coloring(inventory.bodies[i].each, *coloring, scene, diagnostics);

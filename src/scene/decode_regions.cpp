@@ -81,7 +81,7 @@ class Regions {
   void add(const Node& node) {
     const auto [collisions, region] = filled<StopKeys>(View(&node, kind_named("stop"), node.place));
     if (collisions)
-      scene_.simulate.stop_collisions = std::min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
+      scene_.simulate.stop_collisions = min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
 
     // A region, all members of a repeated one, or one that is repeated no time.

@@ -149,7 +149,7 @@ class Requests {
     const Size size = video.size;
     const string film = fmt::format("{} of {} x {} pixels", film_name(format), size.width, size.height);
 
-    if (std::max(size.width, size.height) > limits.longest_side)
+    if (max(size.width, size.height) > limits.longest_side)
       diagnostics_.add(part.place("size"), film,
                        fmt::format("expected at most {} pixels a side, the limit of this format, or a `file` ending in "
                                    ".mp4",
@@ -198,17 +198,17 @@ class Requests {
                        "expected from <= until");
     }
     // Nothing happens after the scene's end.
-    if (until) until = std::min(*until, duration);
+    if (until) until = min(*until, duration);
   }
 
   double count(const FramesOutput& frames) const {
     const double until = frames.until.value_or(scene_.simulate.duration);
-    return std::max(0.0, std::floor(until * frames.fps) - std::ceil(frames.from * frames.fps) + 1);
+    return max(0.0, std::floor(until * frames.fps) - std::ceil(frames.from * frames.fps) + 1);
   }
 
   double count(const VideoOutput& video) const {
     const double until = video.until.value_or(scene_.simulate.duration);
-    return std::max(0.0, std::floor((until - video.from) * video.fps / video.speed) + 1);
+    return max(0.0, std::floor((until - video.from) * video.fps / video.speed) + 1);
   }
 
   void check_budget() {
@@ -248,12 +248,12 @@ class Requests {
                         static_cast<const PictureOutput&>(*out.frames) == *out.video &&
                         std::remainder(out.video->from * out.video->fps, 1) == 0;
     if (out.video && !shared) add(count(*out.video), "video");
-    if (out.sheet) add(static_cast<double>(out.sheet->columns) * out.sheet->rows, "sheet");
+    if (out.sheet) add(double(out.sheet->columns) * out.sheet->rows, "sheet");
 
-    if (total > static_cast<double>(budget_.frames)) {
+    if (total > double(budget_.frames)) {
       const Key* key = view.own() == nullptr ? nullptr : view.own()->find_key(largest);
       const bool slow = largest == "video" && out.video->speed < 1;
-      const bool too_slow = slow && most * out.video->speed <= static_cast<double>(budget_.frames);
+      const bool too_slow = slow && most * out.video->speed <= double(budget_.frames);
       refuse(key == nullptr ? view.where() : view.part(largest).place(too_slow ? "speed" : "fps"), total, "pictures",
              budget_.frames,
              slow ? "a higher `speed`, a lower `fps` or a shorter duration" : "a lower `fps` or a shorter duration");
@@ -282,8 +282,8 @@ void check_steps(const Node& root, const Scene& scene, const Budget& budget, Dia
   const optional<double> steps = steps_of(scene);
   const double bodies = scene.world.body_count();
   if (!steps) return;
-  const bool many = *steps > static_cast<double>(budget.steps);
-  if (!many && *steps * bodies <= static_cast<double>(budget.body_steps)) return;
+  const bool many = *steps > double(budget.steps);
+  if (!many && *steps * bodies <= double(budget.body_steps)) return;
 
   const View simulate = scene_part(root, "simulate");
   const bool said = simulate.given("step") != nullptr;

@@ -77,8 +77,8 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
     return string;
   }
   // Both directions are the same string. no_entity is the largest number.
-  string.body = std::min(*from, *to);
-  string.other = std::max(*from, *to);
+  string.body = min(*from, *to);
+  string.other = max(*from, *to);
   return string;
 }
 
@@ -112,7 +112,7 @@ class Lengths {
     }
 
     const double distance = (*a - *b).norm();
-    const double far = std::max(a->cwiseAbs().maxCoeff(), b->cwiseAbs().maxCoeff());
+    const double far = max(a->cwiseAbs().maxCoeff(), b->cwiseAbs().maxCoeff());
     if (!given && distance == 0) {
       diagnostics_.add(view.where(), fmt::format("the ends of {} are at the same point at time 0", in_backticks(name)),
                        "expected `length`: a number above 0 in m");

@@ -73,15 +73,15 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
 }  // namespace
 
 string_view name_of(Engine engine) {
-  return parts_of(engine_names)[static_cast<size_t>(engine)];
+  return parts_of(engine_names)[size_t(engine)];
 }
 
 string_view name_of(QualityLevel level) {
-  return parts_of(quality_names)[static_cast<size_t>(level)];
+  return parts_of(quality_names)[size_t(level)];
 }
 
 string_view name_of(Integrator integrator) {
-  return parts_of(integrator_names)[static_cast<size_t>(integrator)];
+  return parts_of(integrator_names)[size_t(integrator)];
 }
 
 Engine engine_of(const World& world, const Simulate& simulate) {
@@ -106,7 +106,7 @@ Lacks unsupported(const World& world, const Simulate& simulate) {
   static constexpr void (*of_engine[])(const World&, const Simulate&, Lacks&) = {nullptr, exact_lacks, stepped_lacks,
                                                                                  book_lacks};
   Lacks lacks;
-  of_engine[static_cast<size_t>(engine_of(world, simulate))](world, simulate, lacks);
+  of_engine[size_t(engine_of(world, simulate))](world, simulate, lacks);
   return lacks;
 }
 

@@ -64,7 +64,7 @@ string step_of(const Field& field, size_t i) {
 std::pair<string, string> without_member(string_view path) {
   const size_t name = path.find('.'), number = path.find('.', name + 1);
   if (name == string_view::npos || number == string_view::npos) return {};
-  const size_t end = std::min(path.find('.', number + 1), path.size());
+  const size_t end = min(path.find('.', number + 1), path.size());
   if (!parse_index(path.substr(number + 1, end - number - 1))) return {};
   return {string(path.substr(0, number)), string(path.substr(end))};
 }
@@ -74,7 +74,7 @@ class Expander {
   Expander(const Budget& budget, Diagnostics& diagnostics) : budget_(budget), diagnostics_(diagnostics) {}
 
   ExpressionTexts run(Node& root) {
-    values_ = static_cast<double>(count_values(root));
+    values_ = double(count_values(root));
     if (Node* let = root.find("let"); let != nullptr && let->is(Node::Kind::map)) {
       for (size_t i = 0; i < let->keys.size(); ++i) note("let." + let->keys[i].text, let->items[i]);
       numbers_ = read_let(*let, diagnostics_);
@@ -285,7 +285,7 @@ class Expander {
 
   bool make(Node& thing, const Counts& counts, const Kind& kind, const string& path, vector<Node>& made) {
     const auto at = thing.find_key(repeat_key) - thing.keys.data();
-    const Place where = thing.keys[static_cast<size_t>(at)].place;
+    const Place where = thing.keys[size_t(at)].place;
 
     // The template is the thing without `repeat`.
     Node pattern = thing;
@@ -300,8 +300,8 @@ class Expander {
     // What its members cost.
     const size_t count_of_values = count_values(pattern);
     double work = 0;
-    for (const Slot& slot : slots_) work += static_cast<double>(slot.length()) * counts.members;
-    const double values = values_ + static_cast<double>(count_of_values) * counts.members;
+    for (const Slot& slot : slots_) work += double(slot.length()) * counts.members;
+    const double values = values_ + double(count_of_values) * counts.members;
 
     if (values > most_values || work_ + work > most_work) {
       diagnostics_.add(where,
@@ -314,19 +314,19 @@ class Expander {
 
     work_ += work;
     values_ = values;
-    made.reserve(made.size() + static_cast<size_t>(counts.members));
+    made.reserve(made.size() + size_t(counts.members));
     return fill(pattern, counts, made);
   }
 
   bool fill(const Node& pattern, const Counts& counts, vector<Node>& made) {
     const size_t indices = counts.names.size(), first = numbers_.names.size() - indices;
-    for (uint64_t member = 0; member < static_cast<uint64_t>(counts.members); ++member) {
+    for (uint64_t member = 0; member < uint64_t(counts.members); ++member) {
       uint64_t rest = member;
 
       // The indices of this member: the last one varies fastest.
       for (size_t k = indices; k-- > 0;) {
-        const auto count = static_cast<uint64_t>(counts.counts[k]);
-        numbers_.values[first + k] = static_cast<double>(rest % count);
+        const auto count = uint64_t(counts.counts[k]);
+        numbers_.values[first + k] = double(rest % count);
         rest /= count;
       }
 
@@ -390,7 +390,7 @@ class Expander {
     }
 
     if (!good) return nullopt;
-    if (budget_.enforced && counts.members > static_cast<double>(budget_.bodies)) {
+    if (budget_.enforced && counts.members > double(budget_.bodies)) {
       diagnostics_.add(place_of_repeat(node, where),
                        fmt::format("`repeat` makes {} members; the limit is {}", counts.members, budget_.bodies),
                        "expected a smaller `repeat`");

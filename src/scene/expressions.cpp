@@ -35,7 +35,7 @@ class LetReader {
       let_.bad = true;
     }
 
-    for (size_t i = 0; i < std::min(let_.keys.size(), most_names); ++i) {
+    for (size_t i = 0; i < min(let_.keys.size(), most_names); ++i) {
       check_name(let_.keys[i]);
       numbers_.add(let_.keys[i].text, 0);
       numbers_.known.back() = false;
@@ -143,9 +143,8 @@ Place place_in(const Node& node, size_t at, const FormulaError& error) {
   const size_t quotes = node.quoted ? 2 : 0;
   if (node.place.length != node.text.size() + quotes) return node.place;
   // What is missing at the end of a text is shown at its last character.
-  const size_t offset = std::min(at + error.offset, std::max<size_t>(node.text.size(), 1) - 1);
-  return {node.place.source, static_cast<uint32_t>(node.place.offset + quotes / 2 + offset),
-          static_cast<uint32_t>(error.length)};
+  const size_t offset = min(at + error.offset, max<size_t>(node.text.size(), 1) - 1);
+  return {node.place.source, uint32_t(node.place.offset + quotes / 2 + offset), uint32_t(error.length)};
 }
 
 optional<Slot> Slot::of(Node& node, const NamedNumbers& numbers, Diagnostics& diagnostics) {

@@ -45,8 +45,8 @@ enum class Type : uint8_t {
 
 /// Numbers from `min` to `max`, ends included unless a flag excludes them.
 struct Range {
-  double min = -std::numeric_limits<double>::infinity();
-  double max = std::numeric_limits<double>::infinity();
+  double min = -numeric_limits<double>::infinity();
+  double max = numeric_limits<double>::infinity();
   bool above_min = false;  // min itself is not allowed
   bool below_max = false;  // max itself is not allowed
   bool even = false;       // whole numbers only

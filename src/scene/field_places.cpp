@@ -76,7 +76,7 @@ const vector<Spot>& all_spots() {
 vector<string_view> steps_of(string_view path) {
   vector<string_view> steps;
   for (size_t i = 0; i <= path.size();) {
-    const size_t end = std::min(path.find('.', i), path.size());
+    const size_t end = min(path.find('.', i), path.size());
     steps.push_back(path.substr(i, end - i));
     i = end + 1;
   }

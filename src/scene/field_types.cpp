@@ -52,7 +52,7 @@ static_assert(is_in_order());
 }  // namespace
 
 const TypeFacts& facts_of(Type type) {
-  return all_types[static_cast<size_t>(type)];
+  return all_types[size_t(type)];
 }
 
 }  // namespace carom

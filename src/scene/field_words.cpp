@@ -14,7 +14,7 @@ namespace carom {
 namespace {
 
 string capital(string text) {
-  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 32);
   return text;
 }
 
@@ -55,8 +55,8 @@ Range limited_range(const Field& field) {
   if (holds_whole_numbers(field) || field.type == Type::direction) return range;
   for (const UnitLimit& limit : unit_limits()) {
     if (limit.unit != field.unit) continue;
-    range.max = std::min(range.max, limit.largest);
-    range.min = std::max(range.min, -limit.largest);
+    range.max = min(range.max, limit.largest);
+    range.min = max(range.min, -limit.largest);
     if (range.min != 0 || !range.above_min) continue;
     range.min = limit.smallest;
     range.above_min = false;
@@ -86,7 +86,7 @@ string describe(const Range& range) {
 vector<string_view> parts_of(string_view text) {
   vector<string_view> out;
   for (size_t i = 0; i < text.size();) {
-    const size_t end = std::min(text.find('|', i), text.size());
+    const size_t end = min(text.find('|', i), text.size());
     out.push_back(text.substr(i, end - i));
     i = end + 1;
   }

@@ -20,7 +20,7 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = numeric_limits<double>::infinity();
 constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range from_1{1, infinity, false, false};

@@ -22,7 +22,7 @@ optional<FilmFormat> film_format(string_view file) {
 
 string_view film_name(FilmFormat format) {
   constexpr string_view names[] = {"an MP4", "a GIF", "a WebP"};
-  return names[static_cast<size_t>(format)];
+  return names[size_t(format)];
 }
 
 bool keeps_rate(FilmFormat format, double fps) {
@@ -34,7 +34,7 @@ bool keeps_rate(FilmFormat format, double fps) {
 
 double gif_rate(double fps) {
   if (keeps_rate(FilmFormat::gif, fps)) return fps;
-  return 100 / std::clamp(std::ceil(100 / fps), least_hundredths, most_hundredths);
+  return 100 / clamp(std::ceil(100 / fps), least_hundredths, most_hundredths);
 }
 
 // Measured with ffmpeg 5.1, libx264 164 and libwebp 1.2.4, 2 or 3 pictures each.

@@ -33,7 +33,7 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
     const optional<uint64_t> member = parse_index(string_view(name.text).substr(dot + 1));
 
     if (it != inventory.bodies.end()) {
-      if (member && *member < it->count) return Inventory::Range{it->first + static_cast<Entity>(*member), 1};
+      if (member && *member < it->count) return Inventory::Range{it->first + Entity(*member), 1};
       diagnostics.add(
           name.place,
           fmt::format("the group {} has no member {}", in_backticks(group), in_backticks(name.text.substr(dot + 1))),

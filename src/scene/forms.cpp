@@ -32,8 +32,8 @@ bool is_taken(const string& name, const string& film) {
 /// The shortest decimal with the same float is the number that was written.
 /// With it, a body that is 0.381 m high stands on a floor 0.1905 m below its centre.
 double as_written(double value) {
-  const auto single = static_cast<float>(value);
-  if (static_cast<double>(single) != value) return value;
+  const auto single = float(value);
+  if (double(single) != value) return value;
   char text[32];
   const char* end = std::to_chars(text, text + sizeof text, single).ptr;
   double decimal = value;
@@ -62,7 +62,7 @@ bool names_materials(const std::filesystem::path& file) {
 /// A .gltf, or an .obj with materials, refers to files beside it, which would have to be copied too.
 bool has_further_files(const std::filesystem::path& file, bool own_colors) {
   string ending = file.extension().string();
-  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  for (char& c : ending) c = c >= 'A' && c <= 'Z' ? char(c + 32) : c;
   return ending == ".gltf" || (ending == ".obj" && own_colors && names_materials(file));
 }
 
@@ -112,7 +112,7 @@ optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
   } catch (const std::invalid_argument&) {
     diagnostics_.add(place_of(mesh),
                      fmt::format("the mesh {} is flat: its tightest {} has no volume", in_backticks(mesh.text),
-                                 shape_names[static_cast<size_t>(shape)]),
+                                 shape_names[size_t(shape)]),
                      "expected a mesh with width, height and depth");
   }
 

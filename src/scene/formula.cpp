@@ -137,14 +137,14 @@ class Reader {
   string_view of(const Token& token) const { return text_.substr(token.at, token.length); }
 
   [[noreturn]] static void fail(const Token& token, string message, string remedy) {
-    throw FormulaError{token.at, std::max<size_t>(token.length, 1), std::move(message), std::move(remedy)};
+    throw FormulaError{token.at, max<size_t>(token.length, 1), std::move(message), std::move(remedy)};
   }
 
   Token next() {
-    at_ = std::min(text_.find_first_not_of(" \n", at_), text_.size());
+    at_ = min(text_.find_first_not_of(" \n", at_), text_.size());
     const size_t at = at_;
     // The end of the expression is shown at its last character.
-    if (at == text_.size()) return {0, std::max<size_t>(text_.find_last_not_of(" \n") + 1, 1) - 1};
+    if (at == text_.size()) return {0, max<size_t>(text_.find_last_not_of(" \n") + 1, 1) - 1};
 
     const char c = text_[at];
     if (is_digit(c) || (c == '.' && at + 1 < text_.size() && is_digit(text_[at + 1]))) return number();
@@ -166,7 +166,7 @@ class Reader {
   Token number() {
     Token token{'0', at_};
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), token.value);
-    at_ = static_cast<size_t>(end - text_.data());
+    at_ = size_t(end - text_.data());
     token.length = at_ - token.at;
 
     if (error != std::errc()) {
@@ -197,7 +197,7 @@ class Reader {
     while (const Operation* sign = find(operators, of(after_))) {
       if (sign->precedence < precedence) return;
       const Token token = after_;
-      expression(std::min(sign->precedence + 1, highest));
+      expression(min(sign->precedence + 1, highest));
       call(*sign, token, 2);
     }
   }
@@ -252,7 +252,7 @@ class Reader {
     const string_view plain = name.starts_with("let.") ? name.substr(4) : name;
     const auto found = std::ranges::find(names_, plain);
     if (found == names_.end()) unknown(token, plain);
-    const auto index = static_cast<size_t>(found - names_.begin());
+    const auto index = size_t(found - names_.begin());
     if (std::ranges::find(used, index) == used.end()) used.push_back(index);
     steps.push_back({token.at, token.length, 0, index});
   }

@@ -29,7 +29,7 @@ int64_t cell_of(double x, double cell) {
 }  // namespace
 
 double touch_tolerance(double relative, double smaller_reach, const Vec3& a, const Vec3& b) {
-  const double largest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  const double largest = max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
   return relative * smaller_reach + 4 * 0x1p-52 * largest;
 }
 
@@ -45,9 +45,9 @@ void BodyGrid::reserve(size_t members) {
 
 size_t BodyGrid::bucket(uint32_t level, int64_t x, int64_t y, int64_t z) const {
   // Cells that are neighbours along x share a cache line.
-  const uint64_t row = static_cast<uint64_t>(y) * 0x9E3779B97F4A7C15ULL +
-                       static_cast<uint64_t>(z) * 0xC2B2AE3D27D4EB4FULL + level * 0x165667B19E3779F9ULL;
-  return (static_cast<uint64_t>(x) + (row ^ (row >> 29))) & (heads_.size() - 1);
+  const uint64_t row =
+      uint64_t(y) * 0x9E3779B97F4A7C15ULL + uint64_t(z) * 0xC2B2AE3D27D4EB4FULL + level * 0x165667B19E3779F9ULL;
+  return (uint64_t(x) + (row ^ (row >> 29))) & (heads_.size() - 1);
 }
 
 size_t BodyGrid::bucket(uint32_t level, const Vec3& center) const {
@@ -62,16 +62,16 @@ void BodyGrid::link(uint32_t i) {
 }
 
 void BodyGrid::insert(const Member& member) {
-  if (2 * (members_.size() + 1) > heads_.size()) reserve(std::max<size_t>(64, 2 * members_.size()));
+  if (2 * (members_.size() + 1) > heads_.size()) reserve(max<size_t>(64, 2 * members_.size()));
   int exponent = 0;
   std::frexp(2 * member.radius, &exponent);
-  const auto index = static_cast<uint32_t>(members_.size());
+  const auto index = uint32_t(members_.size());
   auto level = std::ranges::find_if(levels_, [&](const Level& l) { return l.exponent == exponent; });
   if (level == levels_.end()) level = levels_.insert(level, {exponent, 2 * member.radius, 0, {}});
-  level->largest = std::max(level->largest, 2 * member.radius);
+  level->largest = max(level->largest, 2 * member.radius);
   level->members.push_back(index);
   members_.push_back({member, none});
-  level_.push_back(static_cast<uint32_t>(level - levels_.begin()));
+  level_.push_back(uint32_t(level - levels_.begin()));
   link(index);
 }
 
@@ -83,7 +83,7 @@ optional<BodyGrid::Overlap> BodyGrid::overlap_with(const Member& member, const M
   const double depth = is_ball(member.entity) && is_ball(body.entity)
                            ? sum - std::sqrt(squared)
                            : -touch(*world_, body.entity, body.center, member.entity, member.center).gap;
-  if (depth <= touch_tolerance(relative, std::min(member.radius, body.radius), member.center, body.center)) {
+  if (depth <= touch_tolerance(relative, min(member.radius, body.radius), member.center, body.center)) {
     return nullopt;
   }
   return Overlap{member.entity, depth};
@@ -101,7 +101,7 @@ BodyGrid::Cells BodyGrid::cells_about(const Level& level, const Member& body) co
   for (int k = 0; k < 3; ++k) {
     cells.low[k] = cell_of(body.center[k] - reach, level.cell);
     cells.high[k] = cell_of(body.center[k] + reach, level.cell);
-    cells.count *= static_cast<double>(cells.high[k] - cells.low[k] + 1);
+    cells.count *= double(cells.high[k] - cells.low[k] + 1);
   }
   return cells;
 }
@@ -121,7 +121,7 @@ optional<BodyGrid::Overlap> BodyGrid::find_overlap(const Member& body, double re
     const Level& level = levels_[l];
     const Cells cells = cells_about(level, body);
     // For a large body among few small ones it is cheaper to test them all.
-    if (cells.count > static_cast<double>(level.members.size()) + 27) {
+    if (cells.count > double(level.members.size()) + 27) {
       for (const uint32_t i : level.members)
         if ((overlap = overlap_with(members_[i].member, body, relative))) return overlap;
       continue;
@@ -142,7 +142,7 @@ vector<BodyGrid::Overlap> BodyGrid::all_overlaps(const Member& body, double rela
 
   for (uint32_t l = 0; l < levels_.size(); ++l) {
     const Cells cells = cells_about(levels_[l], body);
-    if (cells.count > static_cast<double>(levels_[l].members.size())) {
+    if (cells.count > double(levels_[l].members.size())) {
       for (const uint32_t i : levels_[l].members) look(i);
       continue;
     }
@@ -177,8 +177,8 @@ double ball_depth(const Vec3& center, double radius, const Plane& plane) {
 double ball_depth(const Vec3& center, double radius, const Wall& wall) {
   // Distance to the nearest point of the rectangle.
   const Vec3 d = center - wall.center;
-  const double across = std::max(0.0, std::fabs(dot(d, wall.right)) - wall.half_width);
-  const double along = std::max(0.0, std::fabs(dot(d, wall.up)) - wall.half_height);
+  const double across = max(0.0, std::fabs(dot(d, wall.right)) - wall.half_width);
+  const double along = max(0.0, std::fabs(dot(d, wall.up)) - wall.half_height);
   const double away = dot(d, wall.normal);
   return radius - std::sqrt(across * across + along * along + away * away);
 }
@@ -196,7 +196,7 @@ optional<double> overlap_depth(const World& world, Entity body, const Vec3& cent
 }
 
 bool touches_no_surface(const World& world, Entity body, const Vec3& center) {
-  const auto end = static_cast<Entity>(world.body_count() + world.planes.size() + world.walls.size());
+  const auto end = Entity(world.body_count() + world.planes.size() + world.walls.size());
   for (Entity surface = world.body_count(); surface < end; ++surface) {
     if (overlap_depth(world, body, center, surface)) return false;
   }

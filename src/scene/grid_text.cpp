@@ -27,7 +27,7 @@ GridWord grid_word(const string& word) {
   const string& values = out.values;
   const size_t first = values.find(':');
   if (first == string::npos || !parse_number(values.substr(0, first))) return out;
-  const size_t second = std::min(values.find(':', first + 1), values.size());
+  const size_t second = min(values.find(':', first + 1), values.size());
   out.parts = {values.substr(0, first), values.substr(first + 1, second - first - 1)};
   if (second < values.size()) out.parts.push_back(values.substr(second + 1));
   return out;

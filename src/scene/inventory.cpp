@@ -39,7 +39,7 @@ class Census {
     uint64_t total = 0;
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
-      body.first = static_cast<Entity>(total);
+      body.first = Entity(total);
       if (body.group) body.count = filled<GroupKeys>(body.view).count;
       total = body.count > most_bodies || total + body.count > most_bodies ? most_bodies + 1 : total + body.count;
       if (most == nullptr || body.count > most->count) most = &body;
@@ -103,7 +103,7 @@ class Census {
   }
 
   void check(uint64_t total, const BodyEntry* most, const Budget& budget) {
-    const uint64_t limit = budget.enforced ? std::min(budget.bodies, most_bodies) : most_bodies;
+    const uint64_t limit = budget.enforced ? min(budget.bodies, most_bodies) : most_bodies;
     if (total <= limit) return;
     inventory_.fits = false;
     const bool by_group = most->group;
@@ -116,11 +116,11 @@ class Census {
   }
 
   void number(uint64_t total) {
-    inventory_.body_count = static_cast<Entity>(total);
+    inventory_.body_count = Entity(total);
     inventory_.fixed_count = fixed_count_;
     inventory_.names.reserve(inventory_.bodies.size() + 7 * inventory_.fixed.size() + inventory_.strings.size());
 
-    for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, static_cast<Entity>(body.count)});
+    for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, Entity(body.count)});
 
     static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
@@ -132,13 +132,13 @@ class Census {
     }
 
     for (size_t i = 0; i < inventory_.strings.size(); ++i)
-      add(inventory_.strings[i].key->text, {inventory_.body_count + fixed_count_ + static_cast<Entity>(i), 1});
+      add(inventory_.strings[i].key->text, {inventory_.body_count + fixed_count_ + Entity(i), 1});
     for (const auto& [name, range] : inventory_.families) inventory_.names[name] = range;
 
     // What is repeated no time has a place among the others.
     for (const Empty& none : empty_) {
       const bool last = none.before == inventory_.bodies.size();
-      const Entity first = !none.is_body ? inventory_.body_count + static_cast<Entity>(none.before)
+      const Entity first = !none.is_body ? inventory_.body_count + Entity(none.before)
                            : last        ? inventory_.body_count
                                          : inventory_.bodies[none.before].first;
       inventory_.names[none.key->text] = inventory_.families[none.key->text] = {first, 0};

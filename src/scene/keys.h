@@ -77,9 +77,9 @@ struct GroupKeys {
 
 /// A window of time in which a fixed thing moves.
 struct MotionKeys {
-  double from = 0;                                         // s
-  double until = std::numeric_limits<double>::infinity();  // s
-  optional<Vec3> velocity;                                 // m/s
+  double from = 0;                                    // s
+  double until = numeric_limits<double>::infinity();  // s
+  optional<Vec3> velocity;                            // m/s
 };
 
 /// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
@@ -139,10 +139,10 @@ struct ForceKeys {
   optional<Drag> drag;
   optional<Spring> spring;
   optional<Attractor> attractor;
-  const Node* on = nullptr;                                // names; null: all bodies
-  double from = 0;                                         // s
-  double until = std::numeric_limits<double>::infinity();  // s
-  bool visible = true;                                     // whether its springs are drawn
+  const Node* on = nullptr;                           // names; null: all bodies
+  double from = 0;                                    // s
+  double until = numeric_limits<double>::infinity();  // s
+  bool visible = true;                                // whether its springs are drawn
 };
 
 /// The side of a plane to which its normal points.

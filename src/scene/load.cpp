@@ -174,7 +174,7 @@ struct SceneFile::Impl {
     for (size_t i = 0; i < measures->items.size(); ++i) {
       const auto [fault, span] = options.measure_fault(scene, scene.measures.own[i]);
 
-      const size_t remedy = std::min(fault.find("; "), fault.size());
+      const size_t remedy = min(fault.find("; "), fault.size());
       const Node& node = measures->items[i];
       if (!fault.empty())
         diagnostics.add(span.length == 0 ? node.place : place_in(node, 0, {span.at, span.length, "", ""}),

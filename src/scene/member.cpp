@@ -32,7 +32,7 @@ bool take(const View& view, const Field& field, uint64_t& value) {
 
 bool take(const View& view, const Field& field, int& value) {
   const optional<uint64_t> whole = as_whole(view.find(field));
-  if (whole) value = static_cast<int>(std::min<uint64_t>(*whole, 1 << 30));
+  if (whole) value = int(min<uint64_t>(*whole, 1 << 30));
   return whole.has_value();
 }
 
@@ -57,8 +57,7 @@ bool take(const View& view, const Field& field, Size& value) {
   if (node == nullptr || node->bad || node->items.size() != 2) return false;
   const optional<uint64_t> width = as_whole(&node->items[0]), height = as_whole(&node->items[1]);
   if (!width || !height) return false;
-  value = {static_cast<int>(std::min<uint64_t>(*width, 1 << 30)),
-           static_cast<int>(std::min<uint64_t>(*height, 1 << 30))};
+  value = {int(min<uint64_t>(*width, 1 << 30)), int(min<uint64_t>(*height, 1 << 30))};
   return true;
 }
 
@@ -89,7 +88,7 @@ optional<size_t> choice_of(const View& view, const Field& field) {
   const optional<string> text = as_text(view.find(field));
   const vector<string_view> all = choices(field);
   const auto at = text ? std::ranges::find(all, *text) : all.end();
-  return at == all.end() ? nullopt : optional(static_cast<size_t>(at - all.begin()));
+  return at == all.end() ? nullopt : optional(size_t(at - all.begin()));
 }
 
 Json json_value(const Field& field, bool value) {

@@ -91,7 +91,7 @@ nlohmann::ordered_json json_any(const Field& field, const T& value) {
   } else if constexpr (is_settings<T>) {
     return json_of(*field.held, &value);
   } else if constexpr (std::is_enum_v<T>) {
-    return string(choices(field)[static_cast<size_t>(value)]);
+    return string(choices(field)[size_t(value)]);
 
   } else if constexpr (std::is_same_v<T, bool> || std::is_class_v<T> || std::is_pointer_v<T>) {
     if constexpr (std::is_same_v<T, string>)

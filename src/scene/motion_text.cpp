@@ -26,7 +26,7 @@ class MotionText {
     const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
                  combine, pairs, regions, strings] = scene_.world;
 
-    line("gravity", gravity, "combine", static_cast<int>(combine));
+    line("gravity", gravity, "combine", int(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
       line("pair", a_first, a_count, b_first, b_count, value);
 
@@ -48,7 +48,7 @@ class MotionText {
     for (const Force& force : forces) write(force);
     for (const WorldRegion& region : regions) write(region);
     for (const auto& [body, other, anchor, length, own, rod] : strings)
-      line("string", body, other, anchor, length, own, static_cast<int>(rod));
+      line("string", body, other, anchor, length, own, int(rod));
     return std::move(text_);
   }
 
@@ -93,7 +93,7 @@ class MotionText {
   }
   void write(const Volume& volume) {
     const auto& [shape, half] = volume;
-    write(static_cast<int>(shape));
+    write(int(shape));
     write(half);
   }
   void write(const UniformForce& law) { write(law.force); }

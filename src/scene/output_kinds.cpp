@@ -14,7 +14,7 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = numeric_limits<double>::infinity();
 constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range image_side{16, 16384};

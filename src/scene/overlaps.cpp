@@ -91,7 +91,7 @@ class Overlaps {
     for (const Found& found : found_) {
       const bool both = found.other < world_.body_count();
       if (!is_ball(found.later) || (both && !is_ball(found.other))) return 1;
-      share = std::max(share, found.depth / (world_.radius[found.later] + (both ? world_.radius[found.other] : 0)));
+      share = max(share, found.depth / (world_.radius[found.later] + (both ? world_.radius[found.other] : 0)));
     }
     return share;
   }
@@ -132,7 +132,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
       for (const BodyGrid::Overlap& overlap : all) {
         if (!others.insert(overlap.entity).second) continue;
         const bool is_later = single.body > overlap.entity;
-        const Entity later = std::max(overlap.entity, single.body), other = std::min(overlap.entity, single.body);
+        const Entity later = max(overlap.entity, single.body), other = min(overlap.entity, single.body);
         found.add({later, other, overlap.depth, is_later ? single.position : place_of(later)});
       }
 
@@ -144,12 +144,11 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
   // Obstacles may stand in one another. One with an error has no volume.
   BodyGrid obstacles(&world);
   vector<BodyGrid::Member> members;
-  const auto surfaces = static_cast<Entity>(world.planes.size() + world.walls.size());
+  const auto surfaces = Entity(world.planes.size() + world.walls.size());
   for (size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     if (!(obstacle.volume.reach() > 0)) continue;
-    members.push_back(
-        {obstacle.center, obstacle.volume.reach(), world.body_count() + surfaces + static_cast<Entity>(i)});
+    members.push_back({obstacle.center, obstacle.volume.reach(), world.body_count() + surfaces + Entity(i)});
   }
 
   std::ranges::stable_sort(members,

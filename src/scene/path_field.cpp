@@ -18,7 +18,7 @@ vector<const Field*> fields_along(string_view path) {
   bool name_next = false;
 
   for (size_t i = 0; i <= path.size();) {
-    const size_t end = std::min(path.find('.', i), path.size());
+    const size_t end = min(path.find('.', i), path.size());
     const string_view word = path.substr(i, end - i);
     i = end + 1;
 

@@ -17,7 +17,7 @@ const double root3 = std::sqrt(3.0);
 
 /// The number of whole steps of length `step` in `length`, tolerant of rounding: 0.3 holds three of 0.1.
 double steps_in(double length, double step) {
-  return std::max(0.0, std::floor(length / step * (1 + 1e-12)));
+  return max(0.0, std::floor(length / step * (1 + 1e-12)));
 }
 
 /// Sites for balls of diameter `spacing` in the box of edges `edge`. `spacing` is at least the balls' diameter.
@@ -30,9 +30,9 @@ struct Lattice {
   Lattice(const Vec3& e, double s)
       : edge(e),
         spacing(s),
-        nx(std::max(1.0, steps_in(e.x(), s))),
-        ny(std::max(1.0, steps_in(e.y(), s))),
-        nz(std::max(1.0, steps_in(e.z(), s))) {}
+        nx(max(1.0, steps_in(e.x(), s))),
+        ny(max(1.0, steps_in(e.y(), s))),
+        nz(max(1.0, steps_in(e.z(), s))) {}
   double capacity() const { return nx * ny * nz; }
 
   // visit(Vec3 from the lower corner) returns whether to continue.
@@ -58,7 +58,7 @@ struct Hexagonal {
 
   Hexagonal(const Vec3& e, double s) : edge(e), spacing(s) {
     // The room for the centres.
-    const Vec3 room(std::max(0.0, e.x() - s), std::max(0.0, e.y() - s), std::max(0.0, e.z() - s));
+    const Vec3 room(max(0.0, e.x() - s), max(0.0, e.y() - s), max(0.0, e.z() - s));
     layers = steps_in(room.y(), s * std::sqrt(2.0 / 3)) + 1;
     rows[0] = steps_in(room.z(), s * root3 / 2) + 1;
     rows[1] = room.z() * (1 + 1e-12) < s / (2 * root3) ? 0 : steps_in(room.z() - s / (2 * root3), s * root3 / 2) + 1;
@@ -66,7 +66,7 @@ struct Hexagonal {
     columns[1] = room.x() * (1 + 1e-12) < s / 2 ? 0 : steps_in(room.x() - s / 2, s) + 1;
   }
   /// 1 if row k of layer j is shifted by half a step, else 0.
-  static int shifted(int64_t j, int64_t k) { return static_cast<int>((j + k) & 1); }
+  static int shifted(int64_t j, int64_t k) { return int((j + k) & 1); }
 
   double capacity() const {
     double total = 0;
@@ -81,22 +81,21 @@ struct Hexagonal {
   template <typename Visit>
   void each(Visit visit) const {
     // The space that the layers leave free is shared equally between both sides.
-    const double in_x = std::max((columns[0] - 1) * spacing, columns[1] > 0 ? (columns[1] - 0.5) * spacing : 0.0);
+    const double in_x = max((columns[0] - 1) * spacing, columns[1] > 0 ? (columns[1] - 0.5) * spacing : 0.0);
     const double in_z =
-        std::max((rows[0] - 1) * spacing * root3 / 2,
-                 layers > 1 && rows[1] > 0 ? spacing / (2 * root3) + (rows[1] - 1) * spacing * root3 / 2 : 0.0);
+        max((rows[0] - 1) * spacing * root3 / 2,
+            layers > 1 && rows[1] > 0 ? spacing / (2 * root3) + (rows[1] - 1) * spacing * root3 / 2 : 0.0);
     const double in_y = (layers - 1) * spacing * std::sqrt(2.0 / 3);
     const Vec3 start((edge.x() - in_x) / 2, (edge.y() - in_y) / 2, (edge.z() - in_z) / 2);
 
-    for (int64_t j = 0; j < static_cast<int64_t>(layers); ++j) {
-      const int odd = static_cast<int>(j & 1);
-      for (int64_t k = 0; k < static_cast<int64_t>(rows[odd]); ++k) {
+    for (int64_t j = 0; j < int64_t(layers); ++j) {
+      const int odd = int(j & 1);
+      for (int64_t k = 0; k < int64_t(rows[odd]); ++k) {
         const int half = shifted(j, k);
 
-        for (int64_t i = 0; i < static_cast<int64_t>(columns[half]); ++i) {
-          const Vec3 site((static_cast<double>(i) + 0.5 * half) * spacing,
-                          static_cast<double>(j) * spacing * std::sqrt(2.0 / 3),
-                          static_cast<double>(k) * spacing * root3 / 2 + (odd ? spacing / (2 * root3) : 0.0));
+        for (int64_t i = 0; i < int64_t(columns[half]); ++i) {
+          const Vec3 site((double(i) + 0.5 * half) * spacing, double(j) * spacing * std::sqrt(2.0 / 3),
+                          double(k) * spacing * root3 / 2 + (odd ? spacing / (2 * root3) : 0.0));
           if (!visit(Vec3(start + site))) return;
         }
       }
@@ -126,8 +125,7 @@ class Placer {
   /// Random sequential addition. It gives up where the free volume is too small to be found by chance.
   Placed one_by_one() {
     const double volume = edge_.x() * edge_.y() * edge_.z();
-    const double balls =
-        static_cast<double>(p_.count) * (4.0 / 3 * 3.14159265358979324) * p_.radius * p_.radius * p_.radius;
+    const double balls = double(p_.count) * (4.0 / 3 * 3.14159265358979324) * p_.radius * p_.radius * p_.radius;
     // Random sequential addition saturates at 0.384.
     if (balls > 0.36 * volume && p_.count > 8) return {};
 
@@ -171,7 +169,7 @@ class Placer {
   vector<Vec3> free_sites(double& spacing) const {
     // Find the widest spacing by bisection, ignoring obstructions.
     const double closest = 2 * p_.radius;
-    const auto count = static_cast<double>(p_.count);
+    const auto count = double(p_.count);
     double wide = edge_.maxCoeff() * 2;
     spacing = closest;
     if (Sites(edge_, closest).capacity() >= count) {
@@ -197,8 +195,8 @@ class Placer {
       if (best.size() >= p_.count || s <= closest) return best;
       // With fewer free sites than balls, narrow by about the fourth root of the ratio.
       // The cube root, which the number of sites suggests, could overshoot.
-      const double shrink = std::sqrt(std::sqrt(std::max<double>(1, static_cast<double>(best.size())) / count));
-      s = std::max(closest, s * std::clamp(shrink, 0.5, 0.98));
+      const double shrink = std::sqrt(std::sqrt(max<double>(1, double(best.size())) / count));
+      s = max(closest, s * clamp(shrink, 0.5, 0.98));
       if (Sites(edge_, s).capacity() > most_sites) return best;
     }
   }
@@ -231,14 +229,14 @@ class Placer {
     }
     // The displacement lies in a cube inside the sphere of half the gap.
     // Two neighbours that move towards one another then stay apart.
-    const double half = std::max(0.0, (spacing / 2 - p_.radius) / root3 * (1 - 1e-9));
+    const double half = max(0.0, (spacing / 2 - p_.radius) / root3 * (1 - 1e-9));
     const Vec3 low = p_.min.array() + p_.radius, high = p_.max.array() - p_.radius;
     for (uint64_t k = 0; k < p_.count; ++k) {
       std::swap(sites[k], sites[k + random_.below(sites.size() - k)]);
       Vec3 moved = sites[k];
       for (int axis = 0; axis < 3; ++axis) {
         moved[axis] += (2 * random_.uniform() - 1) * half;
-        moved[axis] = std::max(low[axis], std::min(high[axis], moved[axis]));
+        moved[axis] = max(low[axis], min(high[axis], moved[axis]));
       }
       placed.centers.push_back(is_free(moved) ? moved : sites[k]);
     }

@@ -15,7 +15,7 @@ class Random {
 
   uint64_t bits();
   /// Uniform: 0 <= u < 1, a multiple of 2^-53.
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  double uniform() { return double(bits() >> 11) * 0x1p-53; }
   /// Uniform over 0 .. n - 1. n > 0.
   uint64_t below(uint64_t n);
   /// Normal deviate, mean 0 and standard deviation 1 (Marsaglia's polar method).

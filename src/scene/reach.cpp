@@ -82,14 +82,14 @@ class Reach {
     const double end = scene_.simulate.duration;
     double farthest = fixed_position(world_, e, {end, 0}).cwiseAbs().maxCoeff();
     for (const MotionLeg& leg : world_.legs(e))
-      if (leg.from < end) farthest = std::max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
+      if (leg.from < end) farthest = max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
     check_length(farthest, entry.view.place("motion"), "{} goes as far as {} m from the origin", entry.key->text,
                  "move it less far");
   }
 
   static double largest_number(const Node& node) {
     double largest = as_number(&node).value_or(0);
-    for (const Node& item : node.items) largest = std::max(largest, as_number(&item).value_or(0));
+    for (const Node& item : node.items) largest = max(largest, as_number(&item).value_or(0));
     return largest;
   }
 

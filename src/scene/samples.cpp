@@ -42,10 +42,10 @@ struct DecimalLattice {
 
 /// None: the ends or the numbers need too many digits.
 optional<DecimalLattice> lattice_of(const SampledRange& range, Wide needed) {
-  const int places = std::max(range.from.places, range.to.places);
+  const int places = max(range.from.places, range.to.places);
   DecimalLattice all{range.from.units * power(places - range.from.places),
                      range.to.units * power(places - range.to.places), 1, places};
-  const auto largest = [&] { return std::max(all.from < 0 ? -all.from : all.from, all.to < 0 ? -all.to : all.to); };
+  const auto largest = [&] { return max(all.from < 0 ? -all.from : all.from, all.to < 0 ? -all.to : all.to); };
   // Borders of parts are products by the number of parts, up to 10^6, and must not overflow.
   if (largest() >= power(most_digits + 6)) return nullopt;
   for (; all.to - all.from < needed; ++all.places) {
@@ -68,7 +68,7 @@ string linear(const DecimalLattice& all, const RangePart& part, Random& random) 
   };
   Wide first = first_beyond(part.number);
   if (first * all.step == all.from) ++first;
-  const auto many = static_cast<uint64_t>(first_beyond(part.number + 1) - first);
+  const auto many = uint64_t(first_beyond(part.number + 1) - first);
   return to_text({(first + static_cast<Wide>(random.below(many))) * all.step, all.places});
 }
 
@@ -87,7 +87,7 @@ class Logarithmic {
   /// The significant digits that resolve the range's logarithm in so many numbers.
   int digits(Wide needed) const {
     int digits = 2;
-    for (double numbers = 10 * length_; numbers < static_cast<double>(needed); numbers *= 10) ++digits;
+    for (double numbers = 10 * length_; numbers < double(needed); numbers *= 10) ++digits;
     return digits;
   }
 
@@ -102,12 +102,12 @@ class Logarithmic {
 
   /// A whole number, where `to` is one more than the last of them.
   string whole(const RangePart& part, Random& random) const {
-    return to_text({whole_below(std::clamp(number(part, random.uniform()), from_, to_ - 1)), 0});
+    return to_text({whole_below(clamp(number(part, random.uniform()), from_, to_ - 1)), 0});
   }
 
  private:
   double number(const RangePart& part, double share) const {
-    const double rest = (static_cast<double>(part.count - part.number) - share) / static_cast<double>(part.count);
+    const double rest = (double(part.count - part.number) - share) / double(part.count);
     return to_ * exp_minus(rest * length_);
   }
 
@@ -127,7 +127,7 @@ vector<Wide> shuffled(uint64_t count, Random& random) {
 vector<string> samples(const SampledRange& range, Sampling sampling, uint64_t count, Random& random) {
   const bool latin = sampling == Sampling::latin;
   const Wide parts = latin ? static_cast<Wide>(count) : 1;
-  const Wide needed = std::max(fewest, fewest_in_part * parts);
+  const Wide needed = max(fewest, fewest_in_part * parts);
 
   const double from = parse_number(to_text(range.from)).value_or(0), to = parse_number(to_text(range.to)).value_or(0);
   const Logarithmic logarithmic(range.log ? from : 1, range.log ? to + (range.whole ? 1 : 0) : 2);

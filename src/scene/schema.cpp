@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinity = numeric_limits<double>::infinity();
 constexpr string_view name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
 // Members of a repeated thing, as a resolved scene has them.
 constexpr string_view member_pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.(0|[1-9][0-9]*))?$)";
@@ -71,19 +71,19 @@ Json one_required(const Kind& kind, const vector<string_view>& keys) {
 /// Finite numbers. The largest double is a bound under `not`.
 /// To a validator .nan is within any bounds, so it exceeds that bound too and is refused.
 Json number_schema(const Range& range) {
-  constexpr double largest = std::numeric_limits<double>::max();
+  constexpr double largest = numeric_limits<double>::max();
   Json schema = {{"type", "number"}};
-  schema[range.above_min ? "exclusiveMinimum" : "minimum"] = number_json(std::max(range.min, -largest));
+  schema[range.above_min ? "exclusiveMinimum" : "minimum"] = number_json(max(range.min, -largest));
   if (range.max <= largest) schema[range.below_max ? "exclusiveMaximum" : "maximum"] = number_json(range.max);
   schema["not"] = {{"exclusiveMinimum", largest}};
   return schema;
 }
 
 Json whole_schema(const Range& range) {
-  constexpr uint64_t largest = std::numeric_limits<uint64_t>::max();
+  constexpr uint64_t largest = numeric_limits<uint64_t>::max();
   if (range.min == range.max) return {{"type", "integer"}, {"const", number_json(range.min)}};
-  Json schema = {{"type", "integer"}, {"minimum", number_json(std::max(range.min, 0.0))}};
-  schema["maximum"] = range.max < static_cast<double>(largest) ? number_json(range.max) : Json(largest);
+  Json schema = {{"type", "integer"}, {"minimum", number_json(max(range.min, 0.0))}};
+  schema["maximum"] = range.max < double(largest) ? number_json(range.max) : Json(largest);
   if (range.even) schema["multipleOf"] = 2;
   return schema;
 }
@@ -94,7 +94,7 @@ Json array_schema(Json each, int count) {
 
 Json numbers_schema(const Field& field) {
   return array_schema(holds_whole_numbers(field) ? whole_schema(field.range) : number_schema(limited_range(field)),
-                      static_cast<int>(parts_of(facts_of(field.type).components).size()));
+                      int(parts_of(facts_of(field.type).components).size()));
 }
 
 /// Any scalar is a text, whatever type a YAML parser gives it.
@@ -111,7 +111,7 @@ string in_any_case(const vector<string_view>& words) {
   string pattern = "^(";
   for (const string_view word : words) {
     if (word != words.front()) pattern += '|';
-    for (const char c : word) pattern += fmt::format("[{}{}]", c, static_cast<char>(c - 32));
+    for (const char c : word) pattern += fmt::format("[{}{}]", c, char(c - 32));
   }
   return pattern + ")$";
 }

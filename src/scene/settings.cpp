@@ -26,10 +26,9 @@ struct Step {
 vector<Step> split_path(string_view path, uint32_t index) {
   vector<Step> steps;
   for (size_t i = 0; i <= path.size();) {
-    const size_t end = std::min(path.find('.', i), path.size());
+    const size_t end = min(path.find('.', i), path.size());
     const size_t length = end - i;
-    steps.push_back({string(path.substr(i, length)),
-                     {index, static_cast<uint32_t>(i), static_cast<uint32_t>(std::max<size_t>(length, 1))}});
+    steps.push_back({string(path.substr(i, length)), {index, uint32_t(i), uint32_t(max<size_t>(length, 1))}});
     i = end + 1;
   }
   return steps;
@@ -44,8 +43,8 @@ vector<string_view> names_in(const Node& node) {
 void erase(Node& map, string_view key) {
   for (size_t i = 0; i < map.keys.size(); ++i) {
     if (map.keys[i].text != key) continue;
-    map.keys.erase(map.keys.begin() + static_cast<ptrdiff_t>(i));
-    map.items.erase(map.items.begin() + static_cast<ptrdiff_t>(i));
+    map.keys.erase(map.keys.begin() + ptrdiff_t(i));
+    map.items.erase(map.items.begin() + ptrdiff_t(i));
     return;
   }
 }
@@ -192,7 +191,7 @@ class Walk {
                     : count == 1 ? "its only entry is 0"
                                  : fmt::format("its entries are 0 to {}", count - 1));
     }
-    node_ = &node_->items[static_cast<size_t>(*i)];
+    node_ = &node_->items[size_t(*i)];
     kind_ = field_->held;
     return true;
   }
@@ -276,12 +275,12 @@ void apply_setting(Node& root, vector<Source>& sources, uint32_t index, Diagnost
   const string& text = sources[index].text;
   const size_t equals = text.find('=');
   if (equals == string::npos || equals == 0) {
-    diagnostics.add({index, 0, static_cast<uint32_t>(std::max<size_t>(text.size(), 1))}, "this sets nothing",
+    diagnostics.add({index, 0, uint32_t(max<size_t>(text.size(), 1))}, "this sets nothing",
                     "expected path=value, such as simulate.duration=2");
     return;
   }
 
-  const Place value_place{index, static_cast<uint32_t>(std::min(equals + 1, text.size())), 1};
+  const Place value_place{index, uint32_t(min(equals + 1, text.size())), 1};
   if (!check_text(sources[index], index, diagnostics)) return;
 
   optional<Node> value;
@@ -290,7 +289,7 @@ void apply_setting(Node& root, vector<Source>& sources, uint32_t index, Diagnost
     value = Node{};
     value->kind = Node::Kind::scalar;
     value->text = text.substr(equals + 1);
-    value->place = {index, value_place.offset, static_cast<uint32_t>(value->text.size())};
+    value->place = {index, value_place.offset, uint32_t(value->text.size())};
   } else {
     value = parse_document(sources, index, equals + 1, diagnostics);
   }

@@ -23,7 +23,7 @@ int64_t with_gaps(int64_t count, int64_t side) {
 
 /// The side of a picture if `count` of them and the gaps fill `whole` as far as possible.
 int64_t side_within(int64_t whole, int64_t count) {
-  return std::max<int64_t>((whole - sheet_gap * (count + 1)) / std::max<int64_t>(count, 1), 0);
+  return max<int64_t>((whole - sheet_gap * (count + 1)) / max<int64_t>(count, 1), 0);
 }
 
 }  // namespace
@@ -33,9 +33,9 @@ SheetLayout layout_of(const SheetOutput& sheet, Size shape) {
     return {side_within(sheet.size->width, sheet.columns), side_within(sheet.size->height, sheet.rows),
             sheet.size->width, sheet.size->height};
   }
-  const int64_t width = std::clamp<int64_t>(side_within(whole_width, sheet.columns), least_side, most_width);
-  const double exact_height = static_cast<double>(width) * shape.height / std::max(shape.width, 1);
-  const int64_t height = std::max<int64_t>(std::llround(std::min(exact_height, 1e6)), 1);
+  const int64_t width = clamp<int64_t>(side_within(whole_width, sheet.columns), least_side, most_width);
+  const double exact_height = double(width) * shape.height / max(shape.width, 1);
+  const int64_t height = max<int64_t>(std::llround(min(exact_height, 1e6)), 1);
   return {width, height, with_gaps(sheet.columns, width), with_gaps(sheet.rows, height)};
 }
 
@@ -43,7 +43,7 @@ optional<SheetProblem> problem_of(const SheetOutput& sheet, Size shape) {
   const SheetLayout layout = layout_of(sheet, shape);
   const string sheet_text = fmt::format("a contact sheet of {} x {} pictures", sheet.columns, sheet.rows);
 
-  if (sheet.size && std::min(layout.width, layout.height) < least_side)
+  if (sheet.size && min(layout.width, layout.height) < least_side)
     return SheetProblem{fmt::format("{} in {} x {} pixels: each would have {} x {}", sheet_text, layout.total_width,
                                     layout.total_height, layout.width, layout.height),
                         fmt::format("expected a `size` of at least [{}, {}], or fewer columns or rows",

@@ -48,8 +48,8 @@ Node vector_node(const Vec3& value, Place place) {
 void remove(Node& map, string_view key) {
   for (size_t i = 0; i < map.keys.size(); ++i) {
     if (map.keys[i].text != key) continue;
-    map.keys.erase(map.keys.begin() + static_cast<ptrdiff_t>(i));
-    map.items.erase(map.items.begin() + static_cast<ptrdiff_t>(i));
+    map.keys.erase(map.keys.begin() + ptrdiff_t(i));
+    map.items.erase(map.items.begin() + ptrdiff_t(i));
     return;
   }
 }
@@ -128,7 +128,7 @@ class Starter {
       return -1;
     }
     used_[found->second] = true;
-    return static_cast<ptrdiff_t>(found->second);
+    return ptrdiff_t(found->second);
   }
 
   void body(const string& map, const Kind& kind, const Key& key, Node& node) {
@@ -137,8 +137,8 @@ class Starter {
     const View view = thing_view(root_, key, node, kind);
     replaces(view, {"position", "velocity", "impulse"}, key.text);
     drop_impulse(view, node, key.text);
-    set(node, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
-    set(node, "velocity", vector_node(former_.state.velocity[static_cast<size_t>(i)], place_));
+    set(node, "position", vector_node(former_.state.position[size_t(i)], place_));
+    set(node, "velocity", vector_node(former_.state.velocity[size_t(i)], place_));
     forget(map + "." + key.text, {"position", "velocity", "impulse"});
   }
 
@@ -175,8 +175,8 @@ class Starter {
       Node& member = members.items.emplace_back();
       member.kind = Node::Kind::map;
       member.place = place_;
-      set(member, "position", vector_node(former_.state.position[static_cast<size_t>(i)], place_));
-      set(member, "velocity", vector_node(former_.state.velocity[static_cast<size_t>(i)], place_));
+      set(member, "position", vector_node(former_.state.position[size_t(i)], place_));
+      set(member, "velocity", vector_node(former_.state.velocity[size_t(i)], place_));
     }
 
     if (members.items.size() < count) return;

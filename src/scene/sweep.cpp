@@ -12,7 +12,7 @@ namespace carom {
 size_t Sweep::size() const {
   size_t count = 0;
   for (const SweepBlock& block : blocks) count += block.kept.size();
-  return count * std::max<uint64_t>(seeds, 1);
+  return count * max<uint64_t>(seeds, 1);
 }
 
 string Sweep::id(size_t number) const {
@@ -26,7 +26,7 @@ SweepRun Sweep::run(size_t number) const {
   for (const SweepValue& value : set_values) run.settings.push_back({value.text, value.where});
 
   // The combination, whose digits are the cases of the axes.
-  const size_t repeats = std::max<uint64_t>(seeds, 1);
+  const size_t repeats = max<uint64_t>(seeds, 1);
   size_t combination = number / repeats;
   const SweepBlock* block = blocks.data();
   for (; combination >= block->kept.size(); ++block) combination -= block->kept.size();

@@ -84,14 +84,14 @@ class SweepReader {
     // A file may be one line of a million values, or have as many lines.
     // Counting therefore continues from the last place.
     const string_view text = sources_.front().text;
-    const size_t offset = std::min<size_t>(place.offset, text.size());
+    const size_t offset = min<size_t>(place.offset, text.size());
     if (offset < counted_) counted_ = 0, line_ = column_ = 1;
     const string_view between = text.substr(counted_, offset - counted_);
     const size_t last = between.rfind('\n');
     if (last == string_view::npos) {
       column_ += count_characters(between);
     } else {
-      line_ += static_cast<size_t>(std::ranges::count(between, '\n'));
+      line_ += size_t(std::ranges::count(between, '\n'));
       column_ = 1 + count_characters(between.substr(last + 1));
     }
     counted_ = offset;
@@ -100,13 +100,13 @@ class SweepReader {
 
   /// As many as there are paths: it is none of them.
   size_t index_of(string_view path) const {
-    return static_cast<size_t>(std::ranges::find(sweep_.paths, path) - sweep_.paths.begin());
+    return size_t(std::ranges::find(sweep_.paths, path) - sweep_.paths.begin());
   }
 
   uint32_t path(const string& text) {
     const size_t index = index_of(text);
     if (index == sweep_.paths.size()) sweep_.paths.push_back(text);
-    return static_cast<uint32_t>(index);
+    return uint32_t(index);
   }
 
   void blocks() {
@@ -424,7 +424,7 @@ class SweepReader {
     const View view(given ? node : nullptr, kind_named("repeat"), Place{});
     sweep_.seeds = options_.repeat.value_or(view.whole("seeds").value_or(1));
     sweep_.first_seed = view.whole("first");
-    if (sweep_.first_seed.value_or(0) > std::numeric_limits<uint64_t>::max() - sweep_.seeds)
+    if (sweep_.first_seed.value_or(0) > numeric_limits<uint64_t>::max() - sweep_.seeds)
       diagnostics_.add(node->find_key("first")->place, "there are too few seeds after this one",
                        "expected a smaller `first`");
 

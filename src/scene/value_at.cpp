@@ -78,7 +78,7 @@ class PathWalk {
       if (!numbers || names.size() != node_->items.size()) continue;
       const auto at = std::ranges::find(names, step);
       if (at == names.end()) break;
-      node_ = &node_->items[static_cast<size_t>(at - names.begin())];
+      node_ = &node_->items[size_t(at - names.begin())];
       return true;
     }
     return fail(fmt::format("{} has no part {}", in_backticks(before_), in_backticks(step)), "end the path before it");
@@ -109,7 +109,7 @@ class PathWalk {
         return true;
       }
     } else if (const auto index = parse_index(step); index && *index < node_->items.size()) {
-      entry = &node_->items[static_cast<size_t>(*index)];
+      entry = &node_->items[size_t(*index)];
     }
 
     if (entry == nullptr) {
@@ -144,7 +144,7 @@ ValueAtPath value_at(const Node& root, string_view path) {
   PathWalk walk(root);
 
   for (size_t i = 0; i <= path.size();) {
-    const size_t end = std::min(path.find('.', i), path.size());
+    const size_t end = min(path.find('.', i), path.size());
     if (!walk.step(path.substr(i, end - i), found)) return found;
     i = end + 1;
   }

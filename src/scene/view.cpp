@@ -35,7 +35,7 @@ optional<Vec3> as_vector(const Node* node) {
   if (!usable(node, Node::Kind::sequence) || node->items.size() != 3) return nullopt;
   Vec3 v;
   for (int i = 0; i < 3; ++i) {
-    const optional<double> x = as_number(&node->items[static_cast<size_t>(i)]);
+    const optional<double> x = as_number(&node->items[size_t(i)]);
     if (!x) return nullopt;
     v[i] = *x;
   }

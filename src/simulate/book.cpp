@@ -52,7 +52,7 @@ class BookSimulator final : public Simulator {
   /// For save() and restore().
   template <typename Archive>
   void keep(Archive& archive);
-  double frame_time(uint64_t frame) const { return static_cast<double>(frame) * options_.step; }
+  double frame_time(uint64_t frame) const { return double(frame) * options_.step; }
   void do_frame();
   void find_forces();
   void handle_pairs();
@@ -224,13 +224,12 @@ void BookSimulator::handle_surfaces() {
   const Entity n = world_.body_count();
   for (Entity i = 0; i < n; ++i) {
     for (size_t k = 0; k < world_.planes.size(); ++k)
-      handle_fixed(i, n + static_cast<Entity>(k), world_.planes[k].point, world_.planes[k].normal);
+      handle_fixed(i, n + Entity(k), world_.planes[k].point, world_.planes[k].normal);
     for (size_t k = 0; k < world_.walls.size(); ++k) {
       // A wall acts as a plane over its extent. At its rim the direction is that from its closest point.
       const Vec3 nearest = nearest_on_wall(world_.walls[k], x_[i]);
       const Vec3 away = x_[i] - nearest;
-      if (away.squaredNorm() > 0)
-        handle_fixed(i, n + static_cast<Entity>(world_.planes.size() + k), nearest, away / away.norm());
+      if (away.squaredNorm() > 0) handle_fixed(i, n + Entity(world_.planes.size() + k), nearest, away / away.norm());
     }
   }
 }
@@ -281,7 +280,7 @@ void BookSimulator::end_at(double time, EndReason reason, uint32_t region) {
 bool BookSimulator::end_until(double time) {
   if (!end_ || time < end_->time) return false;
   log_.end(*end_);
-  time_ = std::max(time_, end_->time);
+  time_ = max(time_, end_->time);
   return true;
 }
 
@@ -291,7 +290,7 @@ void BookSimulator::advance_to(double time) {
   pieces_.clear();
 
   if (log_.tally().end) {
-    time_ = std::max(time, time_);
+    time_ = max(time, time_);
     return;
   }
 
@@ -312,12 +311,12 @@ void BookSimulator::advance_to(double time) {
     if (end_until(time)) return;
 
     if (!log_.has_room(room_for_frame) || frames == frames_at_a_time || pieces_.size() >= path_buffer) {
-      time_ = std::min(frame_time(frames_), time);
+      time_ = min(frame_time(frames_), time);
       return;
     }
   }
 
-  time_ = std::max(time, time_);
+  time_ = max(time, time_);
 }
 
 /// Forces are found anew in each frame.
@@ -343,7 +342,7 @@ void BookSimulator::restore(string_view bytes) {
 /// Between frames a body is on the straight line of the frame's update.
 const State& BookSimulator::state() {
   const optional<RunEnd>& end = log_.tally().end;
-  state_.time = end ? std::min(time_, end->time) : time_;
+  state_.time = end ? min(time_, end->time) : time_;
   state_.position = x_;
   state_.velocity = v_;
   const double ahead = frame_time(frames_) - state_.time;

@@ -48,14 +48,14 @@ void EventLog::note(const SharedImpacts& now) {
 void EventLog::take_up(double approach, double energy) {
   TakenUp& all = tally_.taken_up;
   ++all.impacts;
-  all.fastest = std::max(all.fastest, approach);
+  all.fastest = max(all.fastest, approach);
   hold(energy);
 }
 
 void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before, span<const Vec3> after,
                        span<const ContactConstraint> pairs, span<const AbsorbedImpact> impacts) {
   double fastest = 0;
-  for (const Vec3& v : before) fastest = std::max(fastest, v.norm());
+  for (const Vec3& v : before) fastest = max(fastest, v.norm());
 
   // Recorded impacts have their own energy.
   bool any = false;
@@ -72,7 +72,7 @@ void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before,
     if (!impacts.empty() && impacts[c].recorded) {
       of_recorded += impacts[c].lost;
       any_recorded = true;
-    } else if (speed > std::max(exact_tolerance::drift * fastest, p.slack)) {
+    } else if (speed > max(exact_tolerance::drift * fastest, p.slack)) {
       take_up(speed, 0);
       any = true;
     }

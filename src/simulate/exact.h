@@ -21,7 +21,7 @@ struct ExactOptions {
   // The method for free flights without a closed form; except with dop853, for all flights that bend.
   Integrator integrator = Integrator::dop853;
   // s: with dop853 the longest step; steps of other methods end at its multiples.
-  double step = std::numeric_limits<double>::infinity();
+  double step = numeric_limits<double>::infinity();
   // Of dop853, as a share of a radius and of speeds. In islands it is never greater than the default.
   double step_error = exact_tolerance::step_error;
   // false: dop853 computes all flights that bend.

@@ -23,7 +23,7 @@ struct Effort {
   uint64_t regions = 0;        // bodies that left their region, a part of the events
   // Steps of islands along paths with an error beyond rounding, which a smaller error of each step reduces.
   uint64_t inexact_steps = 0;
-  double next = std::numeric_limits<double>::infinity();  // s, time of the next event; infinite: there is none
+  double next = numeric_limits<double>::infinity();  // s, time of the next event; infinite: there is none
 };
 
 /// Carries a World forward from its initial State. Queries never change the motion.

@@ -22,7 +22,7 @@ constexpr double dependent = 0x1p-43;
 constexpr double pulling = 8 * 0x1p-53;
 // A share of a row's scale: the rounding of the data, where residuals are exact.
 constexpr double refined_change = 4 * 0x1p-53;
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = numeric_limits<double>::infinity();
 
 /// Whether a bilateral row that is not active, which the active ones therefore determine, is off by no more than it may
 /// be. w: by how much its scaled value exceeds its target.
@@ -35,7 +35,7 @@ bool contradicts_little(const ContactIsland::Row& r, double w) {
 /// Stores Q^T of row c in row_.
 void DualActiveSet::transform(const ContactIsland& island, uint32_t c) {
   const ContactIsland::Row& r = island.rows[c];
-  const size_t at[2] = {3 * r.a, 3 * static_cast<size_t>(r.moves_b() ? r.b : 0)};
+  const size_t at[2] = {3 * r.a, 3 * size_t(r.moves_b() ? r.b : 0)};
   const double values[6] = {-r.left.x(), -r.left.y(), -r.left.z(), r.right.x(), r.right.y(), r.right.z()};
   factors_.transform(at, values, r.moves_b() ? 2 : 1, row_.data());
 }
@@ -46,7 +46,7 @@ bool DualActiveSet::append(const ContactIsland& island, uint32_t c) {
   transform(island, c);
   if (factors_.tail(row_.data()) <= dependent_) return false;
   factors_.append(row_.data());
-  place_[c] = static_cast<uint32_t>(active_.size());
+  place_[c] = uint32_t(active_.size());
   active_.push_back(c);
   force_.push_back(0);
   fixed_.push_back(island.rows[c].bilateral);
@@ -57,11 +57,11 @@ bool DualActiveSet::append(const ContactIsland& island, uint32_t c) {
 void DualActiveSet::drop(size_t place) {
   factors_.remove(place, row_.data());
   place_[active_[place]] = none;
-  const auto at = static_cast<ptrdiff_t>(place);
+  const auto at = ptrdiff_t(place);
   active_.erase(active_.begin() + at);
   force_.erase(force_.begin() + at);
   fixed_.erase(fixed_.begin() + at);
-  for (size_t k = place; k < active_.size(); ++k) place_[active_[k]] = static_cast<uint32_t>(k);
+  for (size_t k = place; k < active_.size(); ++k) place_[active_[k]] = uint32_t(k);
 }
 
 /// Makes new factors, of the bilateral rows and then of these.
@@ -90,7 +90,7 @@ void DualActiveSet::balance(const ContactIsland& island) {
   factors_.from_q(step_.data(), y_.data());
   for (size_t i = 0; i < y_.size(); ++i) y_[i] += free_[i];
   factors_.solve(step_.data());
-  std::copy(step_.begin(), step_.begin() + static_cast<ptrdiff_t>(k), force_.begin());
+  std::copy(step_.begin(), step_.begin() + ptrdiff_t(k), force_.begin());
 }
 
 /// Returns to the motion of the active rows, without those that pull.
@@ -104,7 +104,7 @@ bool DualActiveSet::drop_one_that_pulls(double tolerance) {
   double greatest = 0, least = 0;
   size_t which = none;
   for (size_t k = 0; k < active_.size(); ++k) {
-    greatest = std::max(greatest, std::abs(force_[k]));
+    greatest = max(greatest, std::abs(force_[k]));
     if (!fixed_[k] && force_[k] < least) {
       least = force_[k];
       which = k;
@@ -137,20 +137,20 @@ bool DualActiveSet::take_in(const ContactIsland& island, uint32_t c, double shor
     const bool free = tail > dependent_;
 
     // The change of the active rows' forces for each unit of this one's.
-    std::copy(row_.begin(), row_.begin() + static_cast<ptrdiff_t>(active_.size()), step_.begin());
+    std::copy(row_.begin(), row_.begin() + ptrdiff_t(active_.size()), step_.begin());
     factors_.solve(step_.data());
 
     // The force grows until the row is satisfied, or until an active row loses its force.
     size_t first = none;
     const double most = blocking(first);
-    const double enough = free ? std::max(shortfall, 0.0) / (tail * tail) : infinite;
+    const double enough = free ? max(shortfall, 0.0) / (tail * tail) : infinite;
     if (!free && first == none) return false;
-    const double step = std::min(most, enough);
+    const double step = min(most, enough);
 
     // The active rows' forces and the motion change with it.
     for (size_t k = 0; k < active_.size(); ++k) {
       force_[k] -= step * step_[k];
-      if (!fixed_[k]) force_[k] = std::max(force_[k], 0.0);
+      if (!fixed_[k]) force_[k] = max(force_[k], 0.0);
     }
     force += step;
     if (free) {
@@ -162,7 +162,7 @@ bool DualActiveSet::take_in(const ContactIsland& island, uint32_t c, double shor
     // The row is satisfied, and becomes active.
     if (enough <= most) {
       factors_.append(row_.data());
-      place_[c] = static_cast<uint32_t>(active_.size());
+      place_[c] = uint32_t(active_.size());
       active_.push_back(c);
       force_.push_back(force);
       fixed_.push_back(0);
@@ -231,7 +231,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
 
   // Without active rows the motion is the free one.
   if (k == 0) {
-    for (size_t i = 0; i < n; ++i) solution.motion[i] = {island.free[i / 3][static_cast<int>(i % 3)], 0};
+    for (size_t i = 0; i < n; ++i) solution.motion[i] = {island.free[i / 3][int(i % 3)], 0};
     y_ = free_;
     return;
   }
@@ -240,7 +240,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
   for (size_t i = 0; i < n; ++i) solution.motion[i] = {island.root[i / 3] * y_[i], 0};
   for (size_t j = 0; j < k; ++j) solution.force[active_[j]] = {island.rows[active_[j]].scale * force_[j], 0};
   double all = 0;
-  for (const double y : y_) all = std::max(all, std::abs(y));
+  for (const double y : y_) all = max(all, std::abs(y));
 
   // The rows' errors and the imbalance of forces. Each is reduced as long as it at least halves.
   double off = infinite;
@@ -250,7 +250,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
   vector<double>& dy = work_;
   const auto greatest = [](const vector<double>& v) {
     double most = 0;
-    for (const double x : v) most = std::max(most, std::abs(x));
+    for (const double x : v) most = max(most, std::abs(x));
     return most;
   };
 
@@ -285,7 +285,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
     }
 
     // Both corrections together, for the motion and for the forces.
-    std::copy(p.begin() + static_cast<ptrdiff_t>(k), p.end(), g.begin() + static_cast<ptrdiff_t>(k));
+    std::copy(p.begin() + ptrdiff_t(k), p.end(), g.begin() + ptrdiff_t(k));
     factors_.from_q(g.data(), dy.data());
     for (size_t j = 0; j < k; ++j) g[j] -= p[j];
     factors_.solve(g.data());
@@ -379,7 +379,7 @@ void DualActiveSet::prepare(const ContactIsland& island) {
   const size_t n = island.unknowns();
   dependent_ = dependent;
   for (vector<double>* v : {&y_, &free_, &row_, &step_, &work_}) v->assign(n, 0.0);
-  for (size_t i = 0; i < n; ++i) free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
+  for (size_t i = 0; i < n; ++i) free_[i] = island.free[i / 3][int(i % 3)] / island.root[i / 3];
   aside_.assign(island.rows.size(), 0);
 }
 
@@ -405,7 +405,7 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, sp
     active_[k] = now[active_[k]];
     if (active_[k] != none) continue;
     factors_.remove(k, row_.data());
-    active_.erase(active_.begin() + static_cast<ptrdiff_t>(k));
+    active_.erase(active_.begin() + ptrdiff_t(k));
   }
 
   // The others stay active, with their factors and without forces.
@@ -413,7 +413,7 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, sp
   fixed_.resize(active_.size());
   place_.assign(island.rows.size(), none);
   for (size_t k = 0; k < active_.size(); ++k) {
-    place_[active_[k]] = static_cast<uint32_t>(k);
+    place_[active_[k]] = uint32_t(k);
     fixed_[k] = island.rows[active_[k]].bilateral;
   }
 

@@ -9,7 +9,7 @@ namespace carom {
 
 /// A contact between two bodies, or between a body and a fixed thing.
 struct ContactConstraint {
-  static constexpr uint32_t fixed = std::numeric_limits<uint32_t>::max();
+  static constexpr uint32_t fixed = numeric_limits<uint32_t>::max();
   // Indices in the problem's arrays. b = `fixed`: an immovable thing.
   uint32_t a, b;
   Vec3 normal;        // from a to b; unit up to rounding

@@ -21,7 +21,7 @@ namespace {
 using Row = ContactIsland::Row;
 using Vector = vector<double>;
 
-constexpr double no_limit = std::numeric_limits<double>::infinity();
+constexpr double no_limit = numeric_limits<double>::infinity();
 // A share of the effect of a force on its own row, by which a contact yields: at first.
 constexpr double loosest = 1;
 // The same at last.
@@ -37,20 +37,20 @@ constexpr double handed_over = 1e-8;
 class ContactMatrix {
  public:
   explicit ContactMatrix(const ContactIsland& island) : island_(island), places_(island.rows.size()) {
-    const auto n = static_cast<int>(island.unknowns());
+    const auto n = int(island.unknowns());
     vector<Eigen::Triplet<double>> entries;
 
     // Adds the entries of a block that are in the matrix's lower half.
     const auto block = [&](uint32_t i, uint32_t j) {
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l)
-          if (i > j || k >= l) entries.emplace_back(3 * static_cast<int>(i) + k, 3 * static_cast<int>(j) + l, 0.0);
+          if (i > j || k >= l) entries.emplace_back(3 * int(i) + k, 3 * int(j) + l, 0.0);
     };
 
     // The pattern: a block for each body, and one for each pair that a row connects.
     for (uint32_t i = 0; i < island.free.size(); ++i) block(i, i);
     for (const Row& r : island.rows)
-      if (r.moves_b()) block(std::max(r.a, r.b), std::min(r.a, r.b));
+      if (r.moves_b()) block(max(r.a, r.b), min(r.a, r.b));
     matrix_.resize(n, n);
     matrix_.setFromTriplets(entries.begin(), entries.end());
 
@@ -58,13 +58,12 @@ class ContactMatrix {
     diagonal_.resize(island.free.size());
     for (uint32_t i = 0; i < diagonal_.size(); ++i)
       for (int k = 0, m = 0; k < 3; ++k)
-        for (int l = 0; l <= k; ++l) diagonal_[i][static_cast<size_t>(m++)] = place(i, k, i, l);
+        for (int l = 0; l <= k; ++l) diagonal_[i][size_t(m++)] = place(i, k, i, l);
     for (size_t c = 0; c < island.rows.size(); ++c) {
       const Row& r = island.rows[c];
       if (!r.moves_b()) continue;
       for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l)
-          places_[c][static_cast<size_t>(3 * k + l)] = place(std::max(r.a, r.b), k, std::min(r.a, r.b), l);
+        for (int l = 0; l < 3; ++l) places_[c][size_t(3 * k + l)] = place(max(r.a, r.b), k, min(r.a, r.b), l);
     }
 
     factors_.analyzePattern(matrix_);
@@ -93,7 +92,7 @@ class ContactMatrix {
       const Vec3& high = r.a > r.b ? r.left : r.right;
       const Vec3& low = r.a > r.b ? r.right : r.left;
       for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) value[places_[c][static_cast<size_t>(3 * k + l)]] -= weight[c] * high[k] * low[l];
+        for (int l = 0; l < 3; ++l) value[places_[c][size_t(3 * k + l)]] -= weight[c] * high[k] * low[l];
     }
 
     ++count_;
@@ -111,20 +110,20 @@ class ContactMatrix {
     double operations() const {
       double sum = 0;
       for (Eigen::Index k = 0; k < m_nonZerosPerCol.size(); ++k)
-        sum += static_cast<double>(m_nonZerosPerCol[k]) * m_nonZerosPerCol[k];
+        sum += double(m_nonZerosPerCol[k]) * m_nonZerosPerCol[k];
       return sum;
     }
   };
 
   void add_square(double* value, uint32_t i, double weight, const Vec3& v) const {
     for (int k = 0, m = 0; k < 3; ++k)
-      for (int l = 0; l <= k; ++l) value[diagonal_[i][static_cast<size_t>(m++)]] += weight * v[k] * v[l];
+      for (int l = 0; l <= k; ++l) value[diagonal_[i][size_t(m++)]] += weight * v[k] * v[l];
   }
   int place(uint32_t i, int k, uint32_t j, int l) const {
     const int* inner = matrix_.innerIndexPtr();
-    const int column = 3 * static_cast<int>(j) + l;
+    const int column = 3 * int(j) + l;
     const int *first = inner + matrix_.outerIndexPtr()[column], *last = inner + matrix_.outerIndexPtr()[column + 1];
-    return static_cast<int>(std::lower_bound(first, last, 3 * static_cast<int>(i) + k) - inner);
+    return int(std::lower_bound(first, last, 3 * int(i) + k) - inner);
   }
 
   const ContactIsland& island_;
@@ -143,7 +142,7 @@ double weight_of(const Vector& weight) {
 
 double greatest(const Vector& v) {
   double most = 0;
-  for (const double x : v) most = std::max(most, std::abs(x));
+  for (const double x : v) most = max(most, std::abs(x));
   return most;
 }
 
@@ -154,8 +153,7 @@ class ContactInteriorPoint::Method {
  public:
   explicit Method(const ContactIsland& island)
       : island_(island), matrix_(island), free_(island.unknowns()), y_(free_.size()), z_(island.rows.size(), 0.0) {
-    for (size_t i = 0; i < free_.size(); ++i)
-      free_[i] = island.free[i / 3][static_cast<int>(i % 3)] / island.root[i / 3];
+    for (size_t i = 0; i < free_.size(); ++i) free_[i] = island.free[i / 3][int(i % 3)] / island.root[i / 3];
     y_ = free_;
   }
 
@@ -213,7 +211,7 @@ class ContactInteriorPoint::Method {
       for (size_t c = 0; c < rows(); ++c) weight[c] = z_[c] > 0 ? 1 / least_yield : 0;
       idle = size < 0.5 * least ? 0 : idle + 1;
       if (size < least) best = z_;
-      least = std::min(least, size);
+      least = min(least, size);
 
       const bool same = former == weight;
       if (idle > (same ? 0 : 4) || size == 0) return best;
@@ -221,7 +219,7 @@ class ContactInteriorPoint::Method {
       former = weight;
       matrix_.solve(left);
       for (size_t c = 0; c < rows(); ++c)
-        if (weight[c] > 0) z_[c] = std::max(z_[c] + island_.rows[c].dot(left.data()) / least_yield, 0.0);
+        if (weight[c] > 0) z_[c] = max(z_[c] + island_.rows[c].dot(left.data()) / least_yield, 0.0);
     }
   }
 
@@ -242,16 +240,16 @@ class ContactInteriorPoint::Method {
     // The greatest violation at the start.
     for (size_t c = 0; c < m; ++c) {
       const double e = excess_of(y_, c);
-      worst = std::max(worst, island_.rows[c].bilateral ? std::abs(e) : -e);
+      worst = max(worst, island_.rows[c].bilateral ? std::abs(e) : -e);
     }
     if (worst == 0) return true;
-    size = std::max(size, worst);
+    size = max(size, worst);
 
     // Every row that is not bilateral starts with a positive force and excess.
     Vector w(m);
     Vector weight(m);
     for (size_t c = 0; c < m; ++c) {
-      w[c] = std::max(excess_of(y_, c), worst);
+      w[c] = max(excess_of(y_, c), worst);
       z_[c] = island_.rows[c].bilateral ? 0 : worst;
     }
 
@@ -266,7 +264,7 @@ class ContactInteriorPoint::Method {
       Vector lacking = image(z_);
       for (size_t i = 0; i < y_.size(); ++i) {
         lacking[i] -= y_[i];
-        off = std::max(off, std::abs(lacking[i]));
+        off = max(off, std::abs(lacking[i]));
       }
 
       // The rows' weights, errors and products of force and excess.
@@ -277,19 +275,19 @@ class ContactInteriorPoint::Method {
         }
         weight[c] = z_[c] / w[c];
         gap += z_[c] * w[c];
-        off = std::max(off, std::abs(excess_of(y_, c) - w[c]));
+        off = max(off, std::abs(excess_of(y_, c) - w[c]));
         ++count;
       }
 
       // It ends near the solution.
       if (count == 0) return true;
-      const double mean = gap / static_cast<double>(count);
+      const double mean = gap / double(count);
       if (mean <= handed_over * handed_over * size * size && off <= handed_over * size) return true;
 
       // Forces grow through a stack, and the mean with them, while the motion approaches what they imply.
       idle = mean < 0.9 * least_mean || off < 0.9 * least_off ? 0 : idle + 1;
-      least_mean = std::min(least_mean, mean);
-      least_off = std::min(least_off, off);
+      least_mean = min(least_mean, mean);
+      least_off = min(least_off, off);
       if (idle > 4) return true;
 
       // A step that fails is undone.
@@ -334,25 +332,25 @@ class ContactInteriorPoint::Method {
       double length = no_limit;
       for (size_t c = 0; c < m; ++c) {
         if (island_.rows[c].bilateral) continue;
-        if (dz[c] < 0) length = std::min(length, -z_[c] / dz[c]);
-        if (dw[c] < 0) length = std::min(length, -w[c] / dw[c]);
+        if (dz[c] < 0) length = min(length, -z_[c] / dz[c]);
+        if (dw[c] < 0) length = min(length, -w[c] / dw[c]);
       }
       return length;
     };
 
     // The predictor step goes straight for the solution. Its length sets the corrector's aim.
     solve();
-    double length = std::min(1.0, room());
+    double length = min(1.0, room());
     double left = 0;
     for (size_t c = 0; c < m; ++c)
       if (!island_.rows[c].bilateral) left += (z_[c] + length * dz[c]) * (w[c] + length * dw[c]);
 
     // The corrector aims at equal products, and includes the predictor's second-order term.
     const double ratio = left / gap;
-    const double aim = ratio * ratio * ratio * gap / static_cast<double>(count);
+    const double aim = ratio * ratio * ratio * gap / double(count);
     for (size_t c = 0; c < m; ++c) product[c] += aim - dz[c] * dw[c];
     solve();
-    length = std::min(1.0, 0.9995 * room());
+    length = min(1.0, 0.9995 * room());
     if (!(length > 0)) return false;
 
     // Takes the step, which must leave forces and excesses positive.
@@ -379,7 +377,7 @@ class ContactInteriorPoint::Method {
   /// - w. The forces are t / rho.
   /// The method is Newton's with exact line searches. It ends when the set of t > 0 is right.
   /// False: there is no progress, or not within so many factorisations.
-  bool find_pressing(double rho, int most = std::numeric_limits<int>::max()) {
+  bool find_pressing(double rho, int most = numeric_limits<int>::max()) {
     const size_t m = rows();
     Vector t(m), slope(m), weight(m), former, dy;
 
@@ -422,7 +420,7 @@ class ContactInteriorPoint::Method {
     // The forces of the last motion.
     for (size_t c = 0; c < m; ++c) {
       const double force = z_[c] - excess_of(y_, c) / rho;
-      z_[c] = island_.rows[c].bilateral ? force : std::max(force, 0.0);
+      z_[c] = island_.rows[c].bilateral ? force : max(force, 0.0);
     }
     return matrix_.factorisations() < most;
   }
@@ -516,7 +514,7 @@ class ContactInteriorPoint::Method {
         idle = 0;
       }
       if (idle > (same ? 2 : 8)) return;
-      last = std::min(last, size);
+      last = min(last, size);
 
       // Adds the correction to the motion and to the forces.
       for (size_t i = 0; i < n; ++i)

@@ -33,13 +33,13 @@ void add_product(DoubleDouble& sum, double a, const DoubleDouble& b) {
 void ContactIsland::scale() {
   double most = 0;
   double lightest = 0;
-  double heaviest = std::numeric_limits<double>::infinity();
-  for (const Vec3& u : free) most = std::max(most, u.cwiseAbs().maxCoeff());
-  for (const Row& r : rows) most = std::max(most, std::abs(r.target));
+  double heaviest = numeric_limits<double>::infinity();
+  for (const Vec3& u : free) most = max(most, u.cwiseAbs().maxCoeff());
+  for (const Row& r : rows) most = max(most, std::abs(r.target));
 
   for (const double w : inverse_mass) {
-    lightest = std::max(lightest, w);
-    heaviest = std::min(heaviest, w);
+    lightest = max(lightest, w);
+    heaviest = min(heaviest, w);
   }
 
   // The units are powers of two, so that scaling does not round.
@@ -57,7 +57,7 @@ void ContactIsland::scale() {
     inverse_mass[i] = mass * inverse_mass[i];
     root[i] = std::sqrt(inverse_mass[i]);
     free[i] = motion * free[i];
-    speed = std::max(speed, free[i].norm());
+    speed = max(speed, free[i].norm());
   }
 
   // The rows, each scaled to unit length.
@@ -69,7 +69,7 @@ void ContactIsland::scale() {
     r.scale = 1 / std::sqrt(r.normal.squaredNorm() * (inverse_mass[r.a] + (r.moves_b() ? inverse_mass[r.b] : 0)));
     r.left = r.scale * root[r.a] * r.normal;
     r.right = r.moves_b() ? Vec3(r.scale * root[r.b] * r.normal) : Vec3(Vec3::Zero());
-    speed = std::max(speed, std::abs(r.target));
+    speed = max(speed, std::abs(r.target));
     unilateral = unilateral && !r.bilateral;
   }
 }
@@ -92,7 +92,7 @@ void ContactIsland::close_mass_gaps() {
   int last = exponent_of(inverse_mass[order.front()]);
   for (const size_t k : order) {
     const int exponent = exponent_of(inverse_mass[k]);
-    shift += std::max(exponent - last - widest, 0);
+    shift += max(exponent - last - widest, 0);
     last = exponent;
     heavier[k] = shift;
     inverse_mass[k] = std::ldexp(inverse_mass[k], -shift);
@@ -106,8 +106,8 @@ vector<int> ContactIsland::force_exponents(const vector<DoubleDouble>& force) co
   DisjointSets sets(free.size());
   for (size_t c = 0; c < rows.size(); ++c)
     if (force[c].hi != 0 && rows[c].moves_b()) sets.join(rows[c].a, rows[c].b);
-  vector<int> least(free.size(), std::numeric_limits<int>::max());  // by root
-  for (uint32_t k = 0; k < free.size(); ++k) least[sets.root(k)] = std::min(least[sets.root(k)], heavier[k]);
+  vector<int> least(free.size(), numeric_limits<int>::max());  // by root
+  for (uint32_t k = 0; k < free.size(); ++k) least[sets.root(k)] = min(least[sets.root(k)], heavier[k]);
   vector<int> exponents;
   for (const Row& r : rows) exponents.push_back(-least[sets.root(r.a)]);
   return exponents;
@@ -176,7 +176,7 @@ void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
     const ContactIsland::Row& r = island.rows[c];
 
     for (uint32_t k = 0; k < 3; ++k) {
-      const double n = r.normal[static_cast<int>(k)];
+      const double n = r.normal[int(k)];
       if (n == 0) continue;
       add_product(push[3 * r.a + k], -n, x);
       if (r.moves_b()) add_product(push[3 * r.b + k], n, x);
@@ -186,7 +186,7 @@ void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
   // What the motion lacks: free motion and the effect of the forces, less the motion itself.
   solution.lacking.resize(island.unknowns());
   for (size_t i = 0; i < push.size(); ++i) {
-    DoubleDouble sum{island.free[i / 3][static_cast<int>(i % 3)], 0};
+    DoubleDouble sum{island.free[i / 3][int(i % 3)], 0};
     add_product(sum, -1, solution.motion[i]);
     add_product(sum, island.inverse_mass[i / 3], push[i]);
     solution.lacking[i] = sum.value();
@@ -195,16 +195,16 @@ void find_imbalance(const ContactIsland& island, ContactSolution& solution) {
 
 Judgement judge(const ContactIsland& island, ContactSolution& solution) {
   Judgement judgement;
-  const auto differ = [&](double change) { judgement.change = std::max(judgement.change, change); };
+  const auto differ = [&](double change) { judgement.change = max(judgement.change, change); };
 
   // By how much rows are violated, or off where they press.
   for (size_t c = 0; c < island.rows.size(); ++c) {
     const ContactIsland::Row& r = island.rows[c];
     const double w = excess(r, solution.motion);
-    const double off = solution.force[c].hi != 0 || r.bilateral ? std::abs(w) : std::max(-w, 0.0);
+    const double off = solution.force[c].hi != 0 || r.bilateral ? std::abs(w) : max(-w, 0.0);
     const double change = off == 0 ? 0 : r.scale * off / island.noise_scale(r);
     if (!(change <= accepted_change) && !(off <= r.slack)) judgement.within_slack = false;
-    if (std::isnan(change)) judgement.change = std::numeric_limits<double>::infinity();
+    if (std::isnan(change)) judgement.change = numeric_limits<double>::infinity();
     differ(change);
   }
 
@@ -214,7 +214,7 @@ Judgement judge(const ContactIsland& island, ContactSolution& solution) {
   for (size_t i = 0; i < lacking.size(); ++i) {
     if (lacking[i] == 0) continue;
     const DoubleDouble* const u = &solution.motion[i - i % 3];
-    const double speed = std::max({island.speed, std::abs(u[0].hi), std::abs(u[1].hi), std::abs(u[2].hi)});
+    const double speed = max({island.speed, std::abs(u[0].hi), std::abs(u[1].hi), std::abs(u[2].hi)});
     const double change = std::abs(lacking[i]) / speed;
     if (!(change <= accepted_change)) judgement.within_slack = false;
     differ(change);

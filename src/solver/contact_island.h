@@ -43,9 +43,9 @@ struct ContactIsland {
     }
     /// y += t times the row.
     void add_to(double* y, double t) const {
-      for (int k = 0; k < 3; ++k) y[3 * a + static_cast<uint32_t>(k)] -= t * left[k];
+      for (int k = 0; k < 3; ++k) y[3 * a + uint32_t(k)] -= t * left[k];
       if (!moves_b()) return;
-      for (int k = 0; k < 3; ++k) y[3 * b + static_cast<uint32_t>(k)] += t * right[k];
+      for (int k = 0; k < 3; ++k) y[3 * b + uint32_t(k)] += t * right[k];
     }
   };
 

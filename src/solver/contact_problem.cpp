@@ -104,7 +104,7 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
   Vec3 a = problem.motion[c.a];
   Vec3 b = fixed ? none : problem.motion[c.b];
   const double target = c.target - c.surface;
-  const double scale = std::abs(target) + (fixed ? 1 : 2) * std::max(a.norm(), b.norm());
+  const double scale = std::abs(target) + (fixed ? 1 : 2) * max(a.norm(), b.norm());
 
   const auto excess = [&] { return c.normal.dot(b - a) - target; };
   double w = excess();
@@ -146,8 +146,8 @@ class ExactCost {
   explicit ExactCost(const ContactIsland& island) : island_(island) {
     constexpr double rows_taken_in = 1.3, per_row = 1500, per_operation = 0.1;
     constexpr double per_entry_set_up = 300, per_entry = 60;
-    const double n = static_cast<double>(island.unknowns()), m = static_cast<double>(island.rows.size());
-    const double taken = std::min(m, n), rows = rows_taken_in * taken;
+    const double n = double(island.unknowns()), m = double(island.rows.size());
+    const double taken = min(m, n), rows = rows_taken_in * taken;
     dense_ = rows * (per_row + per_operation * 6 * n * (n - 0.5 * taken));
     least_sparse_ = (per_entry_set_up + factorisations * per_entry) * (n + m);
   }
@@ -225,7 +225,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, span<c
     row.normal = from.normal;
     row.target = from.target - from.surface;
     row.slack = from.bilateral ? from.slack : 0;
-    row.force = from.bilateral ? 0 : std::max(from.force, 0.0);
+    row.force = from.bilateral ? 0 : max(from.force, 0.0);
   }
 
   for (const uint32_t body : bodies) place[body] = ContactConstraint::fixed;
@@ -241,7 +241,7 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, span<con
 
   for (size_t k = 0; k < bodies.size(); ++k)
     for (int axis = 0; axis < 3; ++axis) {
-      const double u = solution.motion[3 * k + static_cast<size_t>(axis)].value();
+      const double u = solution.motion[3 * k + size_t(axis)].value();
       const bool stopped = std::abs(u) <= nothing && u != island.free[k][axis];
       problem.motion[bodies[k]][axis] = stopped ? 0 : unit * u;
     }
@@ -258,7 +258,7 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, span<con
 Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIsland& last) {
   // Solutions for which factors are reused: factors may cost so many times more.
   constexpr double worth_while = 8;
-  Certificate best{Certificate::Verdict::doubtful, std::numeric_limits<double>::infinity()};
+  Certificate best{Certificate::Verdict::doubtful, numeric_limits<double>::infinity()};
 
   // Keeps the better solution. Returns whether it is accepted.
   const auto take = [&](const Judgement& judgement, bool infeasible) {
@@ -301,7 +301,7 @@ Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIslan
   if (take(cost.method().solve(attempt), false)) return best;
   // Orthogonal factors, from the forces of the best solution so far.
   for (size_t c = 0; c < island.rows.size(); ++c)
-    island.rows[c].force = island.rows[c].bilateral ? 0 : std::max(solution.force[c].hi, 0.0);
+    island.rows[c].force = island.rows[c].bilateral ? 0 : max(solution.force[c].hi, 0.0);
   if (by_active_set()) return best;
   // Orthogonal factors from nothing.
   for (ContactIsland::Row& r : island.rows) r.force = 0;
@@ -345,7 +345,7 @@ Certificate ContactSolver::Workspace::solve_island(const ContactProblem& problem
 
 Certificate ContactSolver::Workspace::solve(const ContactProblem& problem) {
   Certificate all;
-  place.resize(std::max(place.size(), problem.motion.size()), ContactConstraint::fixed);
+  place.resize(max(place.size(), problem.motion.size()), ContactConstraint::fixed);
   islands.find(problem.motion.size(), problem.contacts);
   for (size_t k = 0; k + 1 < islands.first.size(); ++k) {
     const size_t first = islands.first[k], count = islands.first[k + 1] - first;

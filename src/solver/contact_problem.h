@@ -30,8 +30,8 @@ struct Certificate {
   bool solved() const { return verdict == Verdict::solved; }
   /// Combines the quality of two solutions.
   void merge(const Certificate& other) {
-    verdict = std::max(verdict, other.verdict);
-    change = std::max(change, other.change);
+    verdict = max(verdict, other.verdict);
+    change = max(change, other.change);
   }
 };
 

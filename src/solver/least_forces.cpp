@@ -25,13 +25,13 @@ void clear_rounding(const ContactIsland& island, const vector<size_t>& which, ve
   vector<double> greatest(island.free.size(), 0.0);  // by body
   for (const size_t c : which) {
     const ContactIsland::Row& r = island.rows[c];
-    greatest[r.a] = std::max(greatest[r.a], std::abs(force[c].hi));
-    if (r.moves_b()) greatest[r.b] = std::max(greatest[r.b], std::abs(force[c].hi));
+    greatest[r.a] = max(greatest[r.a], std::abs(force[c].hi));
+    if (r.moves_b()) greatest[r.b] = max(greatest[r.b], std::abs(force[c].hi));
   }
 
   for (const size_t c : which) {
     const ContactIsland::Row& r = island.rows[c];
-    const double beside = r.moves_b() ? std::min(greatest[r.a], greatest[r.b]) : greatest[r.a];
+    const double beside = r.moves_b() ? min(greatest[r.a], greatest[r.b]) : greatest[r.a];
     if (std::abs(force[c].hi) <= accepted_change * beside) force[c] = {0, 0};
   }
 }
@@ -64,8 +64,7 @@ bool take_least_forces(const ContactIsland& island, ContactSolution& solution, b
   find_imbalance(island, solution);
   ContactIsland bodies;
   bodies.free.resize(island.free.size());
-  for (size_t i = 0; i < solution.push.size(); ++i)
-    bodies.free[i / 3][static_cast<int>(i % 3)] = -solution.push[i].value();
+  for (size_t i = 0; i < solution.push.size(); ++i) bodies.free[i / 3][int(i % 3)] = -solution.push[i].value();
   for (const size_t c : closed) {
     ContactIsland::Row r = island.rows[c];
     r.target = 0;

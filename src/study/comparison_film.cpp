@@ -97,7 +97,7 @@ vector<FilmTile> film_tiles(const RunSet& runs) {
     tiles.push_back(tile_of(runs.runs()[i]));
     refuse_other_speed(tiles.back(), tiles.front());
     const ComparedRun run = runs.run(i);
-    for (size_t k = 0; k < std::min(varied.size(), most_labels); ++k)
+    for (size_t k = 0; k < min(varied.size(), most_labels); ++k)
       tiles.back().labels.push_back(name_of_value(plan.parameters[varied[k]], run.values[varied[k]]));
   }
   return tiles;

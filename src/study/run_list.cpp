@@ -80,7 +80,7 @@ bool is_earlier(const string& a, const string& b) {
   const auto split = [](const string& name) {
     // npos + 1: 0.
     const size_t digits = name.find_last_not_of("0123456789") + 1;
-    const size_t first = std::min(name.find_first_not_of('0', digits), name.size());
+    const size_t first = min(name.find_first_not_of('0', digits), name.size());
     return std::tuple(name.substr(0, digits), name.size() - first, name.substr(first), name);
   };
   return split(a) < split(b);

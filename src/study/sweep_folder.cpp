@@ -63,8 +63,8 @@ bool is_whole(int folder, const string& path, const Sweep& sweep, const Manifest
 
 /// The part of a sweep's text that determines the runs: from its base on, without the comparison.
 string_view runs_part(string_view text) {
-  const size_t begin = std::min(text.find("\nbase: "), text.size());
-  return text.substr(begin, std::min(text.find("\ncompare:\n"), text.size() - 1) - begin);
+  const size_t begin = min(text.find("\nbase: "), text.size());
+  return text.substr(begin, min(text.find("\ncompare:\n"), text.size() - 1) - begin);
 }
 
 /// Whether the folder's runs are those of this sweep.

@@ -55,7 +55,7 @@ std::pair<string, size_t> each_once(string_view text) {
   for (size_t i = 0; i < text.size();) {
     size_t end = i;
     do {
-      end = std::min(text.find('\n', end), text.size() - 1) + 1;
+      end = min(text.find('\n', end), text.size() - 1) + 1;
     } while (end < text.size() && text[end] == ' ');
 
     const string_view block = text.substr(i, end - i);
@@ -123,7 +123,7 @@ array<char, 16> digest(string_view text) {
   array<char, 16> out{};
   for (size_t i = 0; i < out.size(); ++i) {
     const auto nibble = [&](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
-    out[i] = static_cast<char>(16 * nibble(hex[2 * i]) + nibble(hex[2 * i + 1]));
+    out[i] = char(16 * nibble(hex[2 * i]) + nibble(hex[2 * i + 1]));
   }
   return out;
 }
@@ -265,7 +265,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
     return task;
   };
 
-  const auto end_of = [&](size_t first) { return std::min(first + examined_at_a_time, runs_.size()); };
+  const auto end_of = [&](size_t first) { return min(first + examined_at_a_time, runs_.size()); };
   tasks.work = [&](size_t first) { return examine(first, end_of(first)); };
   tasks.done = [&](const TaskOutcome& outcome) {
     const size_t first = outcome.task, last = end_of(first);
@@ -284,7 +284,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
   };
 
   tasks.stop_check = settings_.stop_check;
-  work_off(tasks, std::min(settings_.jobs, (runs_.size() + examined_at_a_time - 1) / examined_at_a_time));
+  work_off(tasks, min(settings_.jobs, (runs_.size() + examined_at_a_time - 1) / examined_at_a_time));
 
   // Errors in the order of the runs, whatever the order of the tasks.
   size_t valid = runs_.size();
@@ -322,7 +322,7 @@ vector<string> SweepJob::idle_paths() const {
 
     std::map<string, size_t> first;  // by the other values
     size_t pairs = 0, alike = 0;
-    for (size_t number = 0; number < std::min(runs_.size(), most); ++number) {
+    for (size_t number = 0; number < min(runs_.size(), most); ++number) {
       if (runs_[number].status == RunStatus::left_out) continue;
 
       string others;
@@ -542,7 +542,7 @@ void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
     settings_.stop_check();
     report_progress(progress);
   };
-  work_off(tasks, std::min(settings_.jobs, std::max<size_t>(all.size(), 1)));
+  work_off(tasks, min(settings_.jobs, max<size_t>(all.size(), 1)));
   if (!full_disk.empty()) throw ExportError(full_disk);
 }
 

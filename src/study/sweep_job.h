@@ -93,7 +93,7 @@ class SweepJob {
     /// A finished run of the (only) scenario.
     size_t like = none;
   };
-  static constexpr size_t none = static_cast<size_t>(-1);
+  static constexpr size_t none = size_t(-1);
 
   string examine(size_t first, size_t last);
   /// Runs that move alike.

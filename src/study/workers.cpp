@@ -42,7 +42,7 @@ bool send_all(int socket, const void* bytes, size_t size) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     from += n;
-    size -= static_cast<size_t>(n);
+    size -= size_t(n);
   }
   return true;
 }
@@ -54,7 +54,7 @@ bool receive_all(int socket, void* bytes, size_t size) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return false;
     to += n;
-    size -= static_cast<size_t>(n);
+    size -= size_t(n);
   }
   return true;
 }
@@ -181,7 +181,7 @@ class Pool {
       const ssize_t n = recv(worker.socket, to, size, MSG_DONTWAIT);
       if (n > 0) {
         to += n;
-        size -= static_cast<size_t>(n);
+        size -= size_t(n);
         continue;
       }
 

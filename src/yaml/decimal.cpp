@@ -24,7 +24,7 @@ Wide power(int n) {
 /// Gives both the same number of places.
 void align(Decimal& a, Decimal& b) {
   Decimal& shorter = a.places < b.places ? a : b;
-  const int places = std::max(a.places, b.places);
+  const int places = max(a.places, b.places);
   shorter.units *= power(places - shorter.places);
   shorter.places = places;
 }
@@ -32,7 +32,7 @@ void align(Decimal& a, Decimal& b) {
 string digits_of(Wide value) {
   string out;
   do {
-    out += static_cast<char>('0' + static_cast<int>(value % 10));
+    out += char('0' + int(value % 10));
     value /= 10;
   } while (value != 0);
   std::ranges::reverse(out);
@@ -72,10 +72,10 @@ optional<Decimal> parse_decimal(string_view text) {
     digits.pop_back();
     --places;
   }
-  digits.erase(0, std::min(digits.find_first_not_of('0'), digits.size() - 1));
+  digits.erase(0, min(digits.find_first_not_of('0'), digits.size() - 1));
 
-  const int before = static_cast<int>(digits.size()) - places;  // digits before the point
-  if (std::max(before, 0) + std::max(places, 0) > most_digits) return nullopt;
+  const int before = int(digits.size()) - places;  // digits before the point
+  if (max(before, 0) + max(places, 0) > most_digits) return nullopt;
 
   Decimal value;
   for (const char c : digits) value.units = 10 * value.units + (c - '0');
@@ -96,7 +96,7 @@ string to_text(const Decimal& value) {
   }
   string digits = digits_of(v.units < 0 ? -v.units : v.units);
   if (v.places > 0) {
-    const auto places = static_cast<size_t>(v.places);
+    const auto places = size_t(v.places);
     if (digits.size() <= places) digits.insert(0, places + 1 - digits.size(), '0');
     digits.insert(digits.size() - places, 1, '.');
   }
@@ -122,7 +122,7 @@ vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
         __builtin_add_overflow(whole, part, &whole)) {
       const long double share = static_cast<long double>(i) / static_cast<long double>(last);
       const auto scale = static_cast<long double>(power(a.places));
-      out.push_back(shortest(static_cast<double>(
+      out.push_back(shortest(double(
           (static_cast<long double>(a.units) * (1 - share) + static_cast<long double>(b.units) * share) / scale)));
       continue;
     }
@@ -141,7 +141,7 @@ vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
       out.push_back(to_text(value));
     } else {
       const long double divisor = static_cast<long double>(last) * static_cast<long double>(power(a.places));
-      out.push_back(shortest(static_cast<double>(static_cast<long double>(whole) / divisor)));
+      out.push_back(shortest(double(static_cast<long double>(whole) / divisor)));
     }
   }
   return out;

@@ -48,10 +48,10 @@ vector<Character> characters(string_view line) {
 
     if (length == 0 || is_unprintable(code)) {
       out.push_back({code == '\t' ? " " : "?", 1, i});
-      i += static_cast<size_t>(std::max(length, 1));
+      i += size_t(max(length, 1));
     } else {
-      out.push_back({string(line.substr(i, static_cast<size_t>(length))), cells(code), i});
-      i += static_cast<size_t>(length);
+      out.push_back({string(line.substr(i, size_t(length))), cells(code), i});
+      i += size_t(length);
     }
   }
   return out;
@@ -60,7 +60,7 @@ vector<Character> characters(string_view line) {
 /// The number of bytes at the start of `text` that belong to a character cut off in front of it.
 size_t first_whole_character(string_view text) {
   size_t i = 0;
-  while (i < std::min<size_t>(text.size(), 3) && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
+  while (i < min<size_t>(text.size(), 3) && (static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) ++i;
   return i;
 }
 
@@ -75,7 +75,7 @@ string alike(const Place& place, string_view text) {
   for (size_t i = 0; i < text.size();) {
     const bool begins_number = is_digit(i) || (text[i] == '-' && is_digit(i + 1));
     if (!begins_number) out += text[i];
-    i = begins_number ? std::min(text.find_first_not_of("0123456789.eE+-", i), text.size()) : i + 1;
+    i = begins_number ? min(text.find_first_not_of("0123456789.eE+-", i), text.size()) : i + 1;
   }
   return out;
 }
@@ -90,9 +90,9 @@ size_t edits(string_view a, string_view b) {
     now[0] = i;
     for (size_t j = 1; j <= b.size(); ++j) {
       const bool same = a[i - 1] == b[j - 1];
-      now[j] = std::min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
+      now[j] = min({last[j] + 1, now[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        now[j] = std::min(now[j], before[j - 2] + 1);
+        now[j] = min(now[j], before[j - 2] + 1);
       }
     }
     before.swap(last);
@@ -109,12 +109,12 @@ struct LineSpot {
 
 LineSpot spot_of(const Source& source, const Place& place) {
   const string_view text = source.text;
-  const size_t offset = std::min<size_t>(place.offset, text.size());
+  const size_t offset = min<size_t>(place.offset, text.size());
   const size_t begin = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
-  const size_t end = std::min(text.find('\n', offset), text.size());
-  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(begin), '\n');
+  const size_t end = min(text.find('\n', offset), text.size());
+  const auto line = 1 + std::count(text.begin(), text.begin() + ptrdiff_t(begin), '\n');
   const string_view before = text.substr(begin, offset - begin);
-  return {static_cast<size_t>(line), 1 + count_characters(before), before, text.substr(offset, end - offset)};
+  return {size_t(line), 1 + count_characters(before), before, text.substr(offset, end - offset)};
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ string in_backticks(string_view text) {
   constexpr size_t longest = 60;
   const vector<Character> all = characters(text);
   string out = "`";
-  for (size_t i = 0; i < std::min(all.size(), longest); ++i) out += all[i].text;
+  for (size_t i = 0; i < min(all.size(), longest); ++i) out += all[i].text;
   return out + (all.size() > longest ? "...`" : "`");
 }
 
@@ -138,13 +138,13 @@ string suggestion_in(string_view text) {
 string nearest(string_view name, const vector<string_view>& candidates) {
   if (name.empty() || name.size() > 64) return {};
 
-  size_t best = std::min<size_t>(3, (name.size() + 2) / 3);
+  size_t best = min<size_t>(3, (name.size() + 2) / 3);
   string_view found;
   for (const string_view candidate : candidates) {
     if (candidate.size() > name.size() + best || name.size() > candidate.size() + best) continue;
 
     const size_t distance = edits(in_lower_case(name), in_lower_case(candidate));
-    const bool nothing_kept = distance >= std::max(name.size(), candidate.size());
+    const bool nothing_kept = distance >= max(name.size(), candidate.size());
     if (!nothing_kept && (distance < best || (distance == best && found.empty()))) {
       best = distance;
       found = candidate;
@@ -156,7 +156,7 @@ string nearest(string_view name, const vector<string_view>& candidates) {
 string names_text(const vector<string_view>& names, size_t most) {
   vector<string_view> shown;
   for (const string_view name : names) {
-    const size_t dot = std::min(name.rfind('.'), name.size());
+    const size_t dot = min(name.rfind('.'), name.size());
     const bool is_member = dot + 1 < name.size() && name.find_first_not_of("0123456789", dot + 1) == name.npos;
     const string_view whole = is_member ? name.substr(0, dot) : name;
     if (shown.empty() || shown.back() != whole) shown.push_back(whole);
@@ -192,7 +192,7 @@ void Diagnostics::add(Place place, string message, string remedy) {
   if (add_member(place, message)) return;
   ++added_;
   const string_view text = sources_[place.source].text;
-  const string lookalike = lookalike_in(text.substr(std::min<size_t>(place.offset, text.size()), place.length));
+  const string lookalike = lookalike_in(text.substr(min<size_t>(place.offset, text.size()), place.length));
   if (!lookalike.empty()) remedy = remedy.empty() ? lookalike : fmt::format("{}\n{}", lookalike, remedy);
 
   if (repeated_.contains({place.source, place.offset})) first_of_alike_.emplace(alike(place, message), errors_.size());
@@ -235,7 +235,7 @@ string Diagnostics::show(const Error& error, bool color) const {
     const auto [line_number, column, before, after] = spot_of(source, error.place);
 
     // A long line is shown through a window around the caret. Characters outside it are only counted.
-    const string_view near = before.substr(before.size() - std::min(before.size(), 4 * max_width));
+    const string_view near = before.substr(before.size() - min(before.size(), 4 * max_width));
     vector<Character> left = characters(near.substr(first_whole_character(near)));
     vector<Character> right = characters(after.substr(0, 4 * max_width));
 
@@ -246,35 +246,35 @@ string Diagnostics::show(const Error& error, bool color) const {
     const bool fits =
         near.size() == before.size() && after.size() <= 4 * max_width && left.size() + right.size() <= max_width;
     const bool cut_left = !fits && (near.size() < before.size() || left.size() > lead_width);
-    if (cut_left) left.erase(left.begin(), left.end() - static_cast<ptrdiff_t>(std::min(left.size(), lead_width)));
-    const size_t room = max_width - std::min(left.size(), lead_width);
+    if (cut_left) left.erase(left.begin(), left.end() - ptrdiff_t(min(left.size(), lead_width)));
+    const size_t room = max_width - min(left.size(), lead_width);
     const bool cut_right = !fits && (after.size() > 4 * max_width || right.size() > room);
-    if (cut_right) right.resize(std::min(right.size(), room));
+    if (cut_right) right.resize(min(right.size(), room));
 
     string shown = cut_left ? "..." : "", under = cut_left ? "   " : "", marks;
     for (const Character& c : left) {
       shown += c.text;
-      under.append(static_cast<size_t>(c.width), ' ');
+      under.append(size_t(c.width), ' ');
     }
 
     // The caret and its line stand below what is marked.
     for (const Character& c : right) {
       shown += c.text;
-      if (c.at < error.place.length) marks.append(static_cast<size_t>(c.width), '~');
+      if (c.at < error.place.length) marks.append(size_t(c.width), '~');
     }
     if (cut_right) shown += "...";
     if (marks.empty()) marks = "~";
     marks[0] = '^';
 
     const string number = source.option ? "" : std::to_string(line_number);
-    gutter = string(std::max<size_t>(number.size(), 4), ' ');
+    gutter = string(max<size_t>(number.size(), 4), ' ');
     out += fmt::format("{:>4} | {}\n", number, shown);
     out += fmt::format("{} | {}{}\n", gutter, under, paint(marks, "1;32", color));
   }
 
   const string remedy = remedy_of(error);
   for (size_t i = 0; i < remedy.size();) {
-    const size_t end = std::min(remedy.find('\n', i), remedy.size());
+    const size_t end = min(remedy.find('\n', i), remedy.size());
     out += fmt::format("{} = {}\n", gutter, string_view(remedy).substr(i, end - i));
     i = end + 1;
   }
@@ -295,7 +295,7 @@ vector<const Diagnostics::Error*> Diagnostics::in_order() const {
 string Diagnostics::text(bool color) const {
   const vector<const Error*> order = in_order();
   string out;
-  for (size_t i = 0; i < std::min(order.size(), max_shown); ++i) out += show(*order[i], color);
+  for (size_t i = 0; i < min(order.size(), max_shown); ++i) out += show(*order[i], color);
   if (order.size() > max_shown)
     out += fmt::format("and {}\n", how_many(order.size() - max_shown, "more error", "more errors"));
   return out;
@@ -303,7 +303,7 @@ string Diagnostics::text(bool color) const {
 
 vector<ErrorRecord> Diagnostics::records() const {
   vector<const Error*> order = in_order();
-  order.resize(std::min(order.size(), max_shown));
+  order.resize(min(order.size(), max_shown));
 
   vector<ErrorRecord> records;
   for (const Error* error : order) {

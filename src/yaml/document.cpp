@@ -91,10 +91,10 @@ class DocumentBuilder : public YAML::EventHandler {
 
     // The raw text may be folded or escaped. Then the place is a single character.
     const string_view raw = text_.substr(place.offset);
-    if (raw.starts_with(value) && !value.empty()) place.length = static_cast<uint32_t>(value.size());
+    if (raw.starts_with(value) && !value.empty()) place.length = uint32_t(value.size());
     if (is_quoted && raw.size() > value.size() + 1 && raw.substr(1, value.size()) == value &&
         (raw[0] == '"' || raw[0] == '\'')) {
-      place.length = static_cast<uint32_t>(value.size() + 2);
+      place.length = uint32_t(value.size() + 2);
     }
 
     check_decoded(place, value);
@@ -122,12 +122,12 @@ class DocumentBuilder : public YAML::EventHandler {
   };
 
   Place at(const YAML::Mark& mark, size_t length = 1) const {
-    const size_t offset = std::min(base_ + static_cast<size_t>(std::max(mark.pos, 0)), text_.size());
-    return {source_, static_cast<uint32_t>(offset), static_cast<uint32_t>(length)};
+    const size_t offset = min(base_ + size_t(max(mark.pos, 0)), text_.size());
+    return {source_, uint32_t(offset), uint32_t(length)};
   }
   size_t word_length(const YAML::Mark& mark) const {
     const size_t begin = at(mark).offset;
-    return std::max<size_t>(1, std::min(text_.find_first_of(" \n,]}", begin), text_.size()) - begin);
+    return max<size_t>(1, min(text_.find_first_of(" \n,]}", begin), text_.size()) - begin);
   }
   void refuse(Place place, string message, string remedy) {
     diagnostics_.add(place, std::move(message), std::move(remedy));
@@ -156,7 +156,7 @@ class DocumentBuilder : public YAML::EventHandler {
         refuse(place, "this text holds a control character", "expected plain text");
         throw Stop{};
       }
-      i += static_cast<size_t>(length);
+      i += size_t(length);
     }
   }
 
@@ -275,7 +275,7 @@ const Key* Node::find_key(string_view key) const {
 
 const Node* Node::find(string_view key) const {
   const Key* k = find_key(key);
-  return k == nullptr || items.size() != keys.size() ? nullptr : &items[static_cast<size_t>(k - keys.data())];
+  return k == nullptr || items.size() != keys.size() ? nullptr : &items[size_t(k - keys.data())];
 }
 
 Node* Node::find(string_view key) {
@@ -294,8 +294,8 @@ optional<Node> parse_document(const vector<Source>& sources, uint32_t index, siz
   } catch (const Stop&) {
     return nullopt;
   } catch (const YAML::Exception& error) {
-    const size_t pos = error.mark.is_null() ? 0 : static_cast<size_t>(std::max(error.mark.pos, 0));
-    explain_syntax(source, index, offset, std::min(offset + pos, source.text.size()), error.msg, diagnostics);
+    const size_t pos = error.mark.is_null() ? 0 : size_t(max(error.mark.pos, 0));
+    explain_syntax(source, index, offset, min(offset + pos, source.text.size()), error.msg, diagnostics);
     return nullopt;
   }
 

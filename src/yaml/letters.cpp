@@ -26,11 +26,11 @@ int utf8_length(string_view text, size_t i, char32_t& code) {
                      : first >= 0xE0 && first <= 0xEF ? 3
                      : first >= 0xF0 && first <= 0xF4 ? 4
                                                       : 0;
-  if (length == 0 || i + static_cast<size_t>(length) > text.size()) return 0;
+  if (length == 0 || i + size_t(length) > text.size()) return 0;
 
   code = first & (0x7F >> length);
   for (int k = 1; k < length; ++k) {
-    const unsigned char next = byte(i + static_cast<size_t>(k));
+    const unsigned char next = byte(i + size_t(k));
     if ((next & 0xC0) != 0x80) return 0;
     code = (code << 6) | (next & 0x3F);
   }
@@ -50,7 +50,7 @@ size_t count_characters(string_view text) {
   size_t count = 0;
   for (size_t i = 0; i < text.size(); ++count) {
     char32_t code = 0;
-    i += static_cast<size_t>(std::max(utf8_length(text, i, code), 1));
+    i += size_t(max(utf8_length(text, i, code), 1));
   }
   return count;
 }
@@ -58,12 +58,12 @@ size_t count_characters(string_view text) {
 string in_lower_case(string_view text) {
   string lower(text);
   for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
   return lower;
 }
 
 size_t letters_of(string_view text) {
-  return static_cast<size_t>(std::ranges::count_if(text, begins_letter));
+  return size_t(std::ranges::count_if(text, begins_letter));
 }
 
 string shortened(string_view text, size_t most) {

@@ -66,7 +66,7 @@ bool is_blank(const Lookalike& lookalike) {
 string lookalike_in(string_view text) {
   for (size_t i = 0; i < text.size(); ++i)
     if (const optional<Lookalike> found = lookalike_at(text, i))
-      return fmt::format("U+{:04X} is {}: write {}", static_cast<uint32_t>(found->code), found->name, found->plain);
+      return fmt::format("U+{:04X} is {}: write {}", uint32_t(found->code), found->name, found->plain);
   return {};
 }
 

@@ -25,7 +25,7 @@ bool is_unprintable(char32_t code) {
 }
 
 string escaped(char32_t code) {
-  const auto number = static_cast<uint32_t>(code);
+  const auto number = uint32_t(code);
   if (number < 0x20) return fmt::format("\\x{:02x}", number);
   if (number < 0x10000) return fmt::format("\\u{:04x}", number);
   return fmt::format("\\u{:04x}\\u{:04x}", 0xD800 + ((number - 0x10000) >> 10), 0xDC00 + ((number - 0x10000) & 0x3FF));
@@ -42,8 +42,8 @@ string printable(string_view text) {
     else if (is_unprintable(code))
       result += escaped(code);
     else
-      result += text.substr(i, static_cast<size_t>(length));
-    i += static_cast<size_t>(std::max(length, 1));
+      result += text.substr(i, size_t(length));
+    i += size_t(max(length, 1));
   }
   return result;
 }

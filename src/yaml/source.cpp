@@ -50,7 +50,7 @@ bool has_utf8_form(string_view text) {
 }
 
 Place one_byte(uint32_t index, size_t offset) {
-  return {index, static_cast<uint32_t>(offset), 1};
+  return {index, uint32_t(offset), 1};
 }
 
 }  // namespace
@@ -80,8 +80,8 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
     return refuse(fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
                   "many balls of one kind are a group: `groups`");
   };
-  if (static_cast<uint64_t>(info.st_size) > max_source_bytes) return too_big();
-  text.reserve(static_cast<size_t>(info.st_size) + 8);
+  if (uint64_t(info.st_size) > max_source_bytes) return too_big();
+  text.reserve(size_t(info.st_size) + 8);
 
   char buffer[1 << 16];
   for (;;) {
@@ -89,7 +89,7 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return refuse(fmt::format("cannot be read: {}", std::strerror(errno)));
     if (got == 0) break;
-    text.append(buffer, static_cast<size_t>(got));
+    text.append(buffer, size_t(got));
     if (text.size() > max_source_bytes) return too_big();
   }
 
@@ -141,15 +141,15 @@ bool check_text(Source& source, uint32_t index, Diagnostics& diagnostics) {
       indenting = true;
       tab_in_line = false;
     } else if (is_control(code)) {
-      diagnostics.add({index, static_cast<uint32_t>(i), static_cast<uint32_t>(length)},
-                      fmt::format("control character U+{:04X}", static_cast<uint32_t>(code)), "remove it");
+      diagnostics.add({index, uint32_t(i), uint32_t(length)}, fmt::format("control character U+{:04X}", uint32_t(code)),
+                      "remove it");
       return false;
     } else if (code != ' ') {
       indenting = false;
     }
 
     // What costs the parser memory.
-    if (code < 0x80 && std::strchr("[]{},:?\"'*&!", static_cast<int>(code)) != nullptr && code != 0) {
+    if (code < 0x80 && std::strchr("[]{},:?\"'*&!", int(code)) != nullptr && code != 0) {
       ++brackets;
       if (code == '[' || code == '{') ++open_brackets;
       if ((code == ']' || code == '}') && open_brackets > 0) --open_brackets;
@@ -167,13 +167,12 @@ bool check_text(Source& source, uint32_t index, Diagnostics& diagnostics) {
       }
     }
 
-    i += static_cast<size_t>(length);
+    i += size_t(length);
   }
 
   if (tab_lines > max_shown_tabs) {
-    diagnostics.add_unplaced(
-        source.name, fmt::format("tabs in {}",
-                                 how_many(static_cast<size_t>(tab_lines - max_shown_tabs), "more line", "more lines")));
+    diagnostics.add_unplaced(source.name, fmt::format("tabs in {}", how_many(size_t(tab_lines - max_shown_tabs),
+                                                                             "more line", "more lines")));
   }
   return can_go_on;
 }

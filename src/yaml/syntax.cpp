@@ -33,7 +33,7 @@ Unpaired find_unpaired(string_view text, size_t begin) {
         before == ' ' || before == '\n' || before == '[' || before == '{' || before == ',' || before == ':';
 
     if (c == '#' && (before == ' ' || before == '\n')) {
-      i = std::min(text.find('\n', i), text.size());
+      i = min(text.find('\n', i), text.size());
     } else if ((c == '"' || c == '\'') && token_start) {
       // The closing quote. Double quotes escape by a backslash, single ones by doubling.
       size_t j = i + 1;
@@ -69,7 +69,7 @@ size_t line_start(string_view text, size_t i) {
 
 string_view line_at(string_view text, size_t i) {
   const size_t begin = line_start(text, i);
-  return text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
+  return text.substr(begin, min(text.find('\n', begin), text.size()) - begin);
 }
 
 bool has_colon(string_view line) {
@@ -126,7 +126,7 @@ class ParseFailure {
 
  private:
   void add(size_t offset, string message, string remedy, size_t length = 1) {
-    const Place place{index_, static_cast<uint32_t>(offset), static_cast<uint32_t>(length)};
+    const Place place{index_, uint32_t(offset), uint32_t(length)};
     diagnostics_.add(place, std::move(message), std::move(remedy));
   }
   bool complaint_has(string_view part) const { return complaint_.find(part) != string::npos; }
@@ -163,7 +163,7 @@ class ParseFailure {
       const optional<Lookalike> found = lookalike_at(text_, i);
       if (structural && found && is_blank(*found)) {
         char32_t code = 0;
-        add(i, "this is no space to YAML", "", static_cast<size_t>(utf8_length(text_, i, code)));
+        add(i, "this is no space to YAML", "", size_t(utf8_length(text_, i, code)));
         return true;
       }
       structural = text_[i] == '\n' || text_[i] == ':' || (structural && text_[i] == ' ');
@@ -174,14 +174,14 @@ class ParseFailure {
   /// `color: #ff0000` in brackets: the comment hides the rest of the line.
   bool explain_comment() {
     size_t depth = 0;
-    for (size_t i = begin_; i <= std::min(detected_, text_.size() - 1); ++i) {
+    for (size_t i = begin_; i <= min(detected_, text_.size() - 1); ++i) {
       const char c = text_[i];
       if (c == '[' || c == '{') ++depth;
       if ((c == ']' || c == '}') && depth > 0) --depth;
       if (c != '#' || i == 0 || text_[i - 1] != ' ') continue;
 
       const size_t before = text_.find_last_not_of(' ', i - 1), end = text_.find_first_of(" ,]}\n", i);
-      const size_t word = std::min(end, text_.size()) - i;
+      const size_t word = min(end, text_.size()) - i;
       const bool is_value = before != string_view::npos && string_view(":,[").find(text_[before]) < 3;
 
       if (depth > 0 && is_value && word > 1) {
@@ -190,7 +190,7 @@ class ParseFailure {
             fmt::format("a colour that begins with # needs quotes: '{}'", text_.substr(i, word)), word);
         return true;
       }
-      i = std::min(text_.find('\n', i), text_.size());
+      i = min(text_.find('\n', i), text_.size());
     }
     return false;
   }
@@ -204,7 +204,7 @@ class ParseFailure {
     const string closing = c == '[' ? "]" : c == '{' ? "}" : string(1, c);
 
     if (unpaired.close != string::npos) {
-      const auto before = text_.begin() + static_cast<ptrdiff_t>(unpaired.open);
+      const auto before = text_.begin() + ptrdiff_t(unpaired.open);
       add(unpaired.close,
           fmt::format("{} cannot close the {} of line {}", in_backticks(text_.substr(unpaired.close, 1)), open,
                       1 + std::count(text_.begin(), before, '\n')),
@@ -247,7 +247,7 @@ class ParseFailure {
         add(above + word, "this line has no ':'", "expected `key: value`", line.find_last_not_of(' ') + 1 - word);
       } else {
         const string_view here = line_at(text_, detected_);
-        const size_t first = std::min(here.find_first_not_of(' '), detected_ - start);
+        const size_t first = min(here.find_first_not_of(' '), detected_ - start);
         add(start + first, "this line is indented further than the line above, which has its value already",
             "expected the same indentation");
       }

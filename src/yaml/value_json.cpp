@@ -22,7 +22,7 @@ string text_of_json(const Json& value, int indent) {
 
 Json number_json(double value) {
   constexpr double whole_below = 9007199254740992.0;
-  if (std::floor(value) == value && std::fabs(value) < whole_below) return static_cast<int64_t>(value);
+  if (std::floor(value) == value && std::fabs(value) < whole_below) return int64_t(value);
   return value;
 }
 

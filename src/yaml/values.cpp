@@ -97,7 +97,7 @@ optional<uint64_t> parse_whole(string_view text) {
   if (has_leading_zero(text)) return nullopt;
   const optional<double> value = parse_number(text);
   if (!value || *value < 0 || *value > 9007199254740992.0 || std::floor(*value) != *value) return nullopt;
-  return static_cast<uint64_t>(*value);
+  return uint64_t(*value);
 }
 
 Complaint explain_number(const Node& node, const ExpectedNumber& number) {
@@ -127,7 +127,7 @@ Complaint explain_number(const Node& node, const ExpectedNumber& number) {
   if (prefix.empty()) return none;
   if (prefix.size() == text.size()) {
     if (has_leading_zero(text)) {
-      string better(bare.substr(std::min(bare.find_first_not_of('0'), bare.size() - 1)));
+      string better(bare.substr(min(bare.find_first_not_of('0'), bare.size() - 1)));
       if (!is_digit(better[0])) better.insert(0, "0");
       return {fmt::format("{} has a leading zero", shown),
               fmt::format("write {}{}", text[0] == '-' ? "-" : "", better)};

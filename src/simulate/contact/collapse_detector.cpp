@@ -7,6 +7,7 @@
 
 #include "physics/world.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -26,10 +27,10 @@ bool CollapseDetector::collapses(Entity i, Entity other, double e, double approa
   // No impact has lost energy.
   if (e >= 1 && collapse_.empty()) return false;
   Collapse& collapse = collapse_.write(i);
-  const double away = std::max(exact_tolerance::collapse_gap * length,
-                               exact_tolerance::position_rounding * bodies_.flights[i].x.cwiseAbs().sum());
+  const double away = max(exact_tolerance::collapse_gap * length,
+                          exact_tolerance::position_rounding * bodies_.flights[i].x.cwiseAbs().sum());
   if (approach * (bodies_.now - collapse.start) > away) collapse = {bodies_.now, 0};
-  if (bodies_.body[i].origin_partner != other) collapse.lost = std::max(collapse.lost + 1 - e, 0.0);
+  if (bodies_.body[i].origin_partner != other) collapse.lost = max(collapse.lost + 1 - e, 0.0);
   if (collapse.lost <= exact_tolerance::collapse_loss) return false;
   collapse.ended = bodies_.now;
   return true;

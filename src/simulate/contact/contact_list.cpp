@@ -65,7 +65,7 @@ void ContactList::check_room(const ExactBodies& bodies, const vector<Vec3>& velo
   // They do not hold the body all around: the thing on its other side.
   size_t other = 0;
   for (size_t k = 1; k < around.size(); ++k)
-    if (directions[k].dot(directions[0]) < std::min(0.0, directions[other].dot(directions[0]))) other = k;
+    if (directions[k].dot(directions[0]) < min(0.0, directions[other].dot(directions[0]))) other = k;
   if (other > 0) bodies.fail_squeezed(body, {thing, around[other]});
 }
 

@@ -30,7 +30,7 @@ inline vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstra
   vector<uint32_t> first(bodies, ContactConstraint::fixed);
   for (uint32_t k = 0; k < bodies; ++k) {
     uint32_t& of_part = first[sets.root(k)];
-    of_part = std::min(of_part, k);
+    of_part = min(of_part, k);
     part[k] = of_part;
   }
   return part;

@@ -16,8 +16,8 @@ void ContactWork::change(Entity i, const Instant& now, double power) {
   power_.write(i) = {now, power};
 }
 
-void ContactWork::follow(const vector<Entity>& members, const Instant& now, std::shared_ptr<const WorkingPath> path) {
-  const auto from_now = std::make_shared<Path>(Path{now, std::move(path)});
+void ContactWork::follow(const vector<Entity>& members, const Instant& now, shared_ptr<const WorkingPath> path) {
+  const auto from_now = make_shared<Path>(Path{now, std::move(path)});
   for (const Entity i : members) path_.write(i) = from_now;
 }
 

@@ -26,7 +26,7 @@ class ContactWork {
   /// From this instant on, such things do work on body i at this rate (W). The work until then is booked.
   void change(Entity i, const Instant& now, double power);
   /// Such things do work along a path from this instant on. `members`: the bodies on the path.
-  void follow(const vector<Entity>& members, const Instant& now, std::shared_ptr<const WorkingPath> path);
+  void follow(const vector<Entity>& members, const Instant& now, shared_ptr<const WorkingPath> path);
   /// Books the work along the paths of these bodies, which end at this instant.
   void end_paths(const vector<Entity>& members, const Instant& now);
 
@@ -51,13 +51,13 @@ class ContactWork {
   /// The work along a path of several bodies.
   struct Path {
     Instant start;
-    std::shared_ptr<const WorkingPath> path;  // none: its work is booked
+    shared_ptr<const WorkingPath> path;  // none: its work is booked
 
     void keep(auto& archive) { archive(start); }
   };
 
-  LazyArray<Power> power_;                 // by body
-  LazyArray<std::shared_ptr<Path>> path_;  // by body; null: none
+  LazyArray<Power> power_;            // by body
+  LazyArray<shared_ptr<Path>> path_;  // by body; null: none
   EventLog& log_;
 };
 

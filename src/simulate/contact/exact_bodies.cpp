@@ -27,7 +27,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const Flight p = flights[a];
   const Flight q = flights[b];
-  const Instant base = std::max(p.start, q.start);
+  const Instant base = max(p.start, q.start);
   const double t = now - base;
 
   // Where a flight follows a curve: the positions at `base`, and the displacements since then.
@@ -103,7 +103,7 @@ bool ExactBodies::keeps_length(Entity string, double near) const {
   const Vec3 xe = position_of(string);
   const Vec3 ve = velocity_of(string);
   const Touch there = touch(world, s.body, x, string, xe);
-  return there.gap <= std::max(near, contact_gap(s.body, x, xe)) &&
+  return there.gap <= max(near, contact_gap(s.body, x, xe)) &&
          std::abs(there.normal.dot(ve - v)) <= drift_of(s.body, v, ve);
 }
 
@@ -145,8 +145,8 @@ bool ExactBodies::any_meets(span<const Entity> those) const {
 }
 
 double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
-  return std::max(exact_tolerance::contact_gap * world.radius[i],
-                  exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
+  return max(exact_tolerance::contact_gap * world.radius[i],
+             exact_tolerance::contact_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum()));
 }
 
 double ExactBodies::drift_of(Entity i, const Vec3& v, const Vec3& ve) const {

@@ -40,7 +40,7 @@ struct ExactBodies : BodyPaths {
   [[gnu::always_inline]] Instant flight_end(Entity i) const {
     Instant end{never, 0};
     if (is_member(mode(i))) end = islands.of(i).end;
-    if (const PolynomialPath* curve = flights.curve(i)) end = std::min(end, flights[i].start + curve->length);
+    if (const PolynomialPath* curve = flights.curve(i)) end = min(end, flights[i].start + curve->length);
     return end;
   }
   /// Whether body i cannot strike a fixed thing, because it lies behind a flat surface of normal n, towards the body,
@@ -98,7 +98,7 @@ struct ExactBodies : BodyPaths {
   /// thing.
   [[gnu::always_inline]] double smaller_length(Entity i, Entity e) const {
     const Entity second = world.second_body(e);
-    return second != no_entity ? 2 * std::min(world.radius[i], world.radius[second]) : world.radius[i];
+    return second != no_entity ? 2 * min(world.radius[i], world.radius[second]) : world.radius[i];
   }
   /// A speed that counts as zero (m/s), because its square would underflow.
   double negligible_speed() const { return exact_tolerance::negligible_speed * log.tally().fastest.speed; }

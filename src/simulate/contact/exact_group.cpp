@@ -60,7 +60,7 @@ void ExactGroup::unite(Entity a, Entity b) {
     if (bodies_.moving.any())
       for (const Entity i : {a, b}) bodies_.contact_work.end_paths(islands.of(i).members, bodies_.now);
 
-    const Mode united = std::max(bodies_.mode(a), bodies_.mode(b));
+    const Mode united = max(bodies_.mode(a), bodies_.mode(b));
     // An island in another mode takes that of the united one.
     for (const Entity i : {a, b}) {
       if (bodies_.mode(i) == united) continue;
@@ -91,12 +91,12 @@ void ExactGroup::wake(Entity i) {
   if (!crowd) return;
   Island& island = bodies_.islands.of(i);
   island.busy = true;
-  island.calm_needed = std::max(island.calm_needed, exact_tolerance::calm_steps);
+  island.calm_needed = max(island.calm_needed, exact_tolerance::calm_steps);
 }
 
 /// The sleeping bodies that touch body i, and those at the other ends of its taut strings and of its rods, each once.
 vector<Entity> ExactGroup::asleep_beside(Entity i) const {
-  const double near = std::max(exact_tolerance::waking_gap * bodies_.world.radius[i], member[i].gap);  // m
+  const double near = max(exact_tolerance::waking_gap * bodies_.world.radius[i], member[i].gap);  // m
   const Vec3 x = bodies_.position(i);
   vector<Entity> asleep;
   for (const Entity e : bodies_.neighbours_of(i)) {
@@ -135,8 +135,8 @@ void ExactGroup::join_initial(Entity first) {
       const Vec3 ve = bodies_.velocity_of(e);
       // A run may begin with the state of another one, in which contacts hold within the method's error.
       const double near =
-          std::max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
-                   bodies_.contact_gap(i, f.x, xe));
+          max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
+              bodies_.contact_gap(i, f.x, xe));
       if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
 
       // The two must touch, without speed along the normal.
@@ -210,7 +210,7 @@ void ExactGroup::join_by_strings() {
 
   // Rods that contradict one another may do so by a share of the greatest acceleration.
   double greatest = 0;
-  for (const Vec3& acceleration : a) greatest = std::max(greatest, acceleration.norm());
+  for (const Vec3& acceleration : a) greatest = max(greatest, acceleration.norm());
   for (ContactConstraint& row : rows)
     if (row.bilateral) row.slack = exact_tolerance::constrained_balance * greatest;
   solve({inverse_mass, a, rows, true});
@@ -263,7 +263,7 @@ void ExactGroup::forget_apart() {
     const Vec3 xe = bodies_.position_of(thing);
     return touch(bodies_.world, a, x, thing, xe).gap > bodies_.contact_gap(a, x, xe);
   });
-  many_parted_ = std::max<size_t>(64, 2 * parted_.size());
+  many_parted_ = max<size_t>(64, 2 * parted_.size());
 }
 
 bool ExactGroup::has_parted(Entity a, Entity thing) const {
@@ -278,8 +278,8 @@ bool ExactGroup::strikes(Entity i, Entity e, double approach, double slow, bool 
 }
 
 double ExactGroup::pressing_force(Entity i, Entity e) const {
-  for (const PressingContact& p : pressing[std::min(i, e)])
-    if (p.partner == std::max(i, e)) return p.force;
+  for (const PressingContact& p : pressing[min(i, e)])
+    if (p.partner == max(i, e)) return p.force;
   return 0;
 }
 

@@ -119,7 +119,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
 
   // A little ahead, the body is over the other surface's face, if the rims are no farther apart than rounding.
   const double ahead =
-      std::max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
+      max(exact_tolerance::rim_gap * world.radius[i], exact_tolerance::initial_rounding * x.cwiseAbs().sum());
   const double speed = w.norm();
   if (speed == 0) return {};
   const Vec3 there = x + ahead / speed * w;
@@ -389,7 +389,7 @@ vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const {
   const double inverse_mass = 1 / bodies_.world.mass[i];
   Vec3 a = bodies_.applied[i];
   solve({{&inverse_mass, 1}, {&a, 1}, pairs, true});
-  for (size_t k = 0; k < pairs.size(); ++k) forces[k].force = std::max(pairs[k].force, 0.0);
+  for (size_t k = 0; k < pairs.size(); ++k) forces[k].force = max(pairs[k].force, 0.0);
   return forces;
 }
 

@@ -21,7 +21,7 @@ FlightChanges::FlightChanges(ExactBodies& bodies, FlatContacts& flat, PathLog& p
 
 void FlightChanges::begin(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
   go_on(i, x, v, origin);
-  if (bodies_.mode(i) == Mode::held) bodies_.islands.of(i).end = std::min(bodies_.islands.of(i).end, bodies_.now);
+  if (bodies_.mode(i) == Mode::held) bodies_.islands.of(i).end = min(bodies_.islands.of(i).end, bodies_.now);
 }
 
 void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOrigin& origin) {
@@ -221,7 +221,7 @@ double FlightChanges::greatest_speed(Entity i, const Flight& f, double length) c
   const auto rise = [&](double t) { return velocity(t).dot(f.curve->acceleration(t) + beyond.slope(t)); };
   double rising = 0;
   double falling = length;
-  if (!(rise(rising) > 0 && rise(falling) < 0)) return std::max(velocity(0).norm(), velocity(length).norm());
+  if (!(rise(rising) > 0 && rise(falling) < 0)) return max(velocity(0).norm(), velocity(length).norm());
   for (int k = 0; k < 24; ++k) {
     const double middle = 0.5 * (rising + falling);
     (rise(middle) > 0 ? rising : falling) = middle;

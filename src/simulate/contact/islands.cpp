@@ -14,7 +14,7 @@ uint32_t Islands::take_place() {
   ++count_;
   if (vacant_.empty()) {
     islands_.emplace_back();
-    return static_cast<uint32_t>(islands_.size() - 1);
+    return uint32_t(islands_.size() - 1);
   }
   const uint32_t place = vacant_.back();
   vacant_.pop_back();
@@ -49,10 +49,10 @@ void Islands::merge(Entity a, Entity b, const Instant& end) {
   one.end = end;
   one.busy = one.busy || other.busy;
   one.planned = {never, 0};
-  one.next_length = std::min(one.next_length, other.next_length);
-  one.changes = std::max(one.changes, other.changes);
+  one.next_length = min(one.next_length, other.next_length);
+  one.changes = max(one.changes, other.changes);
   one.calm = 0;
-  one.calm_needed = std::max(one.calm_needed, other.calm_needed);
+  one.calm_needed = max(one.calm_needed, other.calm_needed);
 
   // Crowds, and what is near them.
   one.crowds.insert(one.crowds.end(), other.crowds.begin(), other.crowds.end());

@@ -32,7 +32,7 @@ struct Island {
   uint32_t calm_needed = 0;
   uint64_t pressing = 0;  // a hash of the pairs that pressed
   // What is left of the crowds of its members: that of its last step, or those that have united or split since.
-  vector<std::shared_ptr<Crowd>> crowds;
+  vector<shared_ptr<Crowd>> crowds;
   // Bodies of other kinds near it, with a new path since its last step.
   vector<Entity> watched;
 

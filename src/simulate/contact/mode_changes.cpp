@@ -25,7 +25,7 @@ void ModeChanges::change(Entity i, Mode to, bool pressed) {
   if (rests(i) != rested) rested ? bodies_.log.remove_resting(1) : bodies_.log.add_resting(1);
   if (from == to) return;
 
-  ++counts_[static_cast<size_t>(from)][static_cast<size_t>(to)];
+  ++counts_[size_t(from)][size_t(to)];
   // Moving things do work in another way from here on.
   if (is_free(from) != is_free(to) || is_member(from) != is_member(to)) bodies_.contact_work.change(i, bodies_.now, 0);
 }

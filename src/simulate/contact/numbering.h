@@ -33,7 +33,7 @@ class Numbering {
   /// Adds body i, unless it is there. Returns whether it was not.
   bool add(Entity i) {
     if ((*numbers_)[i] != none) return false;
-    numbers_->write(i) = static_cast<uint32_t>(bodies_.size());
+    numbers_->write(i) = uint32_t(bodies_.size());
     bodies_.push_back(i);
     return true;
   }

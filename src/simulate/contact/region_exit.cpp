@@ -63,7 +63,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
       const double left = room - off.norm();
       if (!(left > 0)) return 0.0;
       const double surely = 2 * left / (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * left));
-      return narrowed > 0 ? std::max(surely, straight_exit(off, v, narrowed)) : surely;
+      return narrowed > 0 ? max(surely, straight_exit(off, v, narrowed)) : surely;
     };
 
     const double straight = t;
@@ -84,11 +84,11 @@ span<const Entity> renew_region(ExactBodies& bodies, Entity i, double until) {
   const double since = bodies.now - f.start;
 
   // Half of the time to that instant, or to the one at which the acceleration has reversed the motion.
-  double half = 0.5 * std::max(std::min(until, bodies.options.duration) - bodies.now.hi, 0.0);
+  double half = 0.5 * max(min(until, bodies.options.duration) - bodies.now.hi, 0.0);
   if (const double a2 = f.a.squaredNorm(); a2 > 0) {
     const Vec3 v = f.velocity(since);
     const double size = std::sqrt(a2);
-    half = std::min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies.neighbours.room(i))) / size);
+    half = min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies.neighbours.room(i))) / size);
   }
 
   const Vec3 here = f.position(since);

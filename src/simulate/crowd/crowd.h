@@ -85,7 +85,7 @@ struct Crowd {
 
   CrowdRows rows;
   // Crowds with forces and shells for the next list: those of which this one is made.
-  vector<std::shared_ptr<Crowd>> earlier;
+  vector<shared_ptr<Crowd>> earlier;
   CrowdReach list;
   CrowdStep step;
   CrowdRest rest;
@@ -95,7 +95,7 @@ struct Crowd {
   double load = 0;          // m/s^2, the greatest acceleration by forces
   CrowdBalance balance;
 
-  uint32_t movable() const { return static_cast<uint32_t>(members.size()); }
+  uint32_t movable() const { return uint32_t(members.size()); }
   /// Whether these are its members. They must be ascending.
   bool is_of(span<const Entity> entities) const {
     return std::ranges::equal(entities, by_name, {}, {}, [&](uint32_t k) { return members[k]; });

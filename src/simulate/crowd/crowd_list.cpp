@@ -23,10 +23,10 @@ double CrowdList::surface_skin(const Crowd& crowd) const {
 void CrowdList::begin(Crowd& crowd, double need) const {
   CrowdReach& list = crowd.list;
   list.reach =
-      std::clamp(tol::steps_of_list * need, tol::least_reach * crowd.smallest, tol::greatest_reach * crowd.smallest);
-  list.reach = std::max(std::min(list.reach, list.most), tol::reach_of_need * need);
+      clamp(tol::steps_of_list * need, tol::least_reach * crowd.smallest, tol::greatest_reach * crowd.smallest);
+  list.reach = max(min(list.reach, list.most), tol::reach_of_need * need);
   list.most = never;
-  list.room = std::max(surface_skin(crowd), tol::room_of_region * crowd.smallest);
+  list.room = max(surface_skin(crowd), tol::room_of_region * crowd.smallest);
   list.gone = 0;
   list.need = 0;
   list.listed = false;
@@ -61,7 +61,7 @@ CrowdList::Outlook CrowdList::outlook(const Crowd& crowd, Entity e) const {
   Outlook all = Outlook::apart;
   const Entity first = crowd.members.front();
   for (const Entity m : bodies_.neighbours.bodies(e))
-    if (is_member(bodies_.mode(m)) && bodies_.islands.same(m, first)) all = std::max(all, outlook_on(crowd, m, e));
+    if (is_member(bodies_.mode(m)) && bodies_.islands.same(m, first)) all = max(all, outlook_on(crowd, m, e));
   return all;
 }
 
@@ -72,7 +72,7 @@ CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Enti
   const double sizes = bodies_.world.radius[member] + bodies_.world.radius[e];
   if (bodies_.mode(e) == Mode::stepped) {
     double reach = crowd.list.reach;
-    for (const std::shared_ptr<Crowd>& its : bodies_.islands.of(e).crowds) reach += its->list.reach;
+    for (const shared_ptr<Crowd>& its : bodies_.islands.of(e).crowds) reach += its->list.reach;
     if (!(between.norm() < sizes + reach)) return Outlook::apart;
     const double gap = touch(bodies_.world, member, bodies_.position(member), e, bodies_.position(e)).gap;
     return gap < reach ? Outlook::joins : Outlook::apart;
@@ -83,8 +83,8 @@ CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Enti
   const double since = bodies_.now - f.start;
   const auto meets = [&](double time, double reach) {
     const Vec3 way = time * f.velocity(since);
-    const double bend = 0.5 * time * time * std::max(f.greatest_acceleration(), f.acceleration(since).norm());
-    const double along = way.squaredNorm() > 0 ? std::clamp(-between.dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
+    const double bend = 0.5 * time * time * max(f.greatest_acceleration(), f.acceleration(since).norm());
+    const double along = way.squaredNorm() > 0 ? clamp(-between.dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
     return (between + along * way).norm() < sizes + bend + reach;
   };
 
@@ -152,7 +152,7 @@ void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& 
   for (const Contact& contact : fixed.names) add(Numbering::none, contact.e, false, 0);
 
   // The order of lists of neighbours has no effect.
-  std::sort(pairs.begin() + static_cast<ptrdiff_t>(first), pairs.end(),
+  std::sort(pairs.begin() + ptrdiff_t(first), pairs.end(),
             [](const CrowdRows::Pair& p, const CrowdRows::Pair& q) { return p.name.e < q.name.e; });
 }
 
@@ -189,7 +189,7 @@ void CrowdList::take_over_forces(const Crowd& crowd, size_t members) {
       }
 }
 
-void CrowdList::list(Crowd& crowd, span<const std::shared_ptr<Crowd>> before) {
+void CrowdList::list(Crowd& crowd, span<const shared_ptr<Crowd>> before) {
   arrange_in_slabs(crowd, 2 * crowd.list.reach);
   const Numbering members(numbers_, crowd.members);
 
@@ -204,7 +204,7 @@ void CrowdList::list(Crowd& crowd, span<const std::shared_ptr<Crowd>> before) {
     pairs = {};  // a large crowd has many
   }
 
-  for (const std::shared_ptr<Crowd>& other : before) take_over_forces(*other, crowd.members.size());
+  for (const shared_ptr<Crowd>& other : before) take_over_forces(*other, crowd.members.size());
   for (CrowdRows::Pair& pair : pairs_) pair.near = pair.near || pair.force > 0;
   write(crowd, pairs_);
 }
@@ -228,7 +228,7 @@ void CrowdList::list_part(Crowd& part) {
 uint32_t CrowdList::number_of(Crowd& crowd, Entity thing) {
   uint32_t& number = thing_number_[thing];
   if (number != Numbering::none) return number;
-  number = crowd.movable() + static_cast<uint32_t>(crowd.things.size());
+  number = crowd.movable() + uint32_t(crowd.things.size());
   crowd.things.push_back(thing);
   const bool body = bodies_.world.is_body(thing);
   crowd.x.push_back(four_of(bodies_.position_of(thing), body ? bodies_.world.radius[thing] : 0));
@@ -251,7 +251,7 @@ void CrowdList::write(Crowd& crowd, const Pairs& pairs) {
     for (size_t k = first; k < crowd.things.size(); ++k) thing_number_[crowd.things[k]] = Numbering::none;
   }
 
-  const auto dummy = static_cast<uint32_t>(crowd.x.size());
+  const auto dummy = uint32_t(crowd.x.size());
   crowd.x.resize(crowd.x.size() + of_part.size());
   crowd.v.resize(crowd.v.size() + of_part.size());
   crowd.rows.clear();

@@ -33,7 +33,7 @@ class CrowdList {
   Outlook outlook(const Crowd& crowd, Entity e) const;
   /// Lists the pairs that may press while the list holds. Forces are those of the same pairs in the crowds `before`,
   /// which may be this one.
-  void list(Crowd& crowd, span<const std::shared_ptr<Crowd>> before);
+  void list(Crowd& crowd, span<const shared_ptr<Crowd>> before);
   /// The same for a part of the crowd that was listed last. No pair connects it to other parts.
   void list_part(Crowd& part);
   /// Measures gaps and normals. `seconds`: of the drift to come.

@@ -34,9 +34,9 @@ CrowdMotion::CrowdMotion(ExactBodies& bodies, ModeChanges& modes, ExactGroup& gr
 bool CrowdMotion::advance(Entity i) {
   for (;;) {
     Island& island = bodies_.islands.of(i);
-    for (const std::shared_ptr<Crowd>& crowd : island.crowds) close(*crowd, bodies_.now);
+    for (const shared_ptr<Crowd>& crowd : island.crowds) close(*crowd, bodies_.now);
     if (bodies_.any_taut(island.members) || !island.busy) {
-      for (const std::shared_ptr<Crowd>& crowd : island.crowds) free_flights(*crowd);
+      for (const shared_ptr<Crowd>& crowd : island.crowds) free_flights(*crowd);
       island.crowds.clear();
       return false;
     }
@@ -54,7 +54,7 @@ bool CrowdMotion::advance(Entity i) {
     list_.measure(crowd, crowd.step.length);
 
     // The island may be no more if members fall asleep.
-    const std::shared_ptr<Crowd> kept = bodies_.islands.of(i).crowds.front();
+    const shared_ptr<Crowd> kept = bodies_.islands.of(i).crowds.front();
     if (sleep_.falls_asleep(*kept)) return true;
     if (!solve_step(crowd)) continue;
     if (!bodies_.islands.same(i, kept->members.front()) || bodies_.islands.of(i).crowds.size() != 1) continue;
@@ -66,7 +66,7 @@ bool CrowdMotion::advance(Entity i) {
 
 void CrowdMotion::interrupt(Entity i) {
   Island& island = bodies_.islands.of(i);
-  for (const std::shared_ptr<Crowd>& crowd : island.crowds) {
+  for (const shared_ptr<Crowd>& crowd : island.crowds) {
     close(*crowd, bodies_.now);
     free_flights(*crowd);
   }
@@ -76,9 +76,9 @@ void CrowdMotion::interrupt(Entity i) {
 }
 
 void CrowdMotion::book_last(const Island& island, double time) const {
-  for (const std::shared_ptr<Crowd>& crowd : island.crowds)
+  for (const shared_ptr<Crowd>& crowd : island.crowds)
     if (crowd->step.open) {
-      const double since = std::min(Instant{time, 0} - crowd->step.start, crowd->step.length);
+      const double since = min(Instant{time, 0} - crowd->step.start, crowd->step.length);
       book(*crowd, since, since == crowd->step.length);
     }
 }
@@ -113,7 +113,7 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
   });
   gain -= crowd.step.kinetic;
   const ptrdiff_t pressed = std::ranges::count(crowd.pressed, 1);
-  bodies_.log.add_stepped_contact(since * static_cast<double>(pressed));
+  bodies_.log.add_stepped_contact(since * double(pressed));
 
   // Things that move push a against the normal. Velocities of the step's ends have parts of two steps' forces.
   if (bodies_.moving.any())
@@ -168,7 +168,7 @@ Crowd& CrowdMotion::gather(Island& island) {
       island.crowds[0]->is_of(island.members))
     return *island.crowds[0];
 
-  const auto made = std::make_shared<Crowd>();
+  const auto made = make_shared<Crowd>();
   Crowd& crowd = *made;
   crowd.members = island.members;
   const size_t n = crowd.members.size();
@@ -185,7 +185,7 @@ Crowd& CrowdMotion::gather(Island& island) {
 
   // Members of crowds go on as they are.
   vector<uint8_t> known(n, 0);
-  for (const std::shared_ptr<Crowd>& other : island.crowds) {
+  for (const shared_ptr<Crowd>& other : island.crowds) {
     take_over(crowd, *other, known);
     crowd.earlier.push_back(other);
     crowd.earlier.insert(crowd.earlier.end(), other->earlier.begin(), other->earlier.end());
@@ -194,7 +194,7 @@ Crowd& CrowdMotion::gather(Island& island) {
   // Others come from their flights.
   for (size_t k = 0; k < n; ++k) {
     if (known[k] < 2) take_in(crowd, k, known[k] == 0);
-    crowd.smallest = std::min(crowd.smallest, bodies_.world.radius[crowd.members[k]]);
+    crowd.smallest = min(crowd.smallest, bodies_.world.radius[crowd.members[k]]);
   }
   renew_forces(crowd);
   island.crowds = {made};
@@ -226,11 +226,11 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, vector<uint8_t>&
   // A part that has split off must not reach farther at once than the whole: they would unite again.
   const bool part = earlier.members.size() > crowd.members.size();
   const double last = earlier.step.last_length / (part ? tol::step_growth : 1);
-  crowd.step.last_length = std::min(crowd.step.last_length, last);
-  if (part) crowd.list.most = std::min(crowd.list.most, earlier.list.reach);
+  crowd.step.last_length = min(crowd.step.last_length, last);
+  if (part) crowd.list.most = min(crowd.list.most, earlier.list.reach);
 
   // Members share the balance of energy.
-  const double share = static_cast<double>(common) / static_cast<double>(earlier.members.size());
+  const double share = double(common) / double(earlier.members.size());
   crowd.balance.taken += share * earlier.balance.taken;
   crowd.balance.made += share * earlier.balance.made;
   crowd.balance.lost += share * earlier.balance.lost;
@@ -260,9 +260,9 @@ void CrowdMotion::renew_forces(Crowd& crowd) const {
     const Entity i = crowd.members[k];
     if (!world.forces.empty()) {
       bodies_.apply_forces(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]));
-      crowd.step.next_switch = std::min(crowd.step.next_switch, bodies_.merged.next_switch(i, bodies_.now.floor()));
+      crowd.step.next_switch = min(crowd.step.next_switch, bodies_.merged.next_switch(i, bodies_.now.floor()));
     }
-    crowd.load = std::max(crowd.load, bodies_.applied[i].norm());
+    crowd.load = max(crowd.load, bodies_.applied[i].norm());
   }
 }
 
@@ -270,24 +270,24 @@ void CrowdMotion::renew_forces(Crowd& crowd) const {
 double CrowdMotion::longest_step(const Crowd& crowd) const {
   const double fastest = greatest(crowd.v);
   double length = fastest > 0 ? quality_.displacement * crowd.smallest / fastest : never;
-  if (crowd.load > 0) length = std::min(length, quality_.longest_step * std::sqrt(2 * crowd.smallest / crowd.load));
+  if (crowd.load > 0) length = min(length, quality_.longest_step * std::sqrt(2 * crowd.smallest / crowd.load));
   if (bodies_.varying)
     for (size_t k = 0; k < crowd.members.size(); ++k)
       if (const Entity i = crowd.members[k]; bodies_.bent[i]) {
         const double rate = force_rate(bodies_.world, i, crowd.position(k), crowd.drift(k));
-        if (rate > 0) length = std::min(length, quality_.longest_step / rate);
+        if (rate > 0) length = min(length, quality_.longest_step / rate);
       }
-  length = std::min(length, tol::step_growth * crowd.step.last_length);
-  return std::min(length, Instant{crowd.step.next_switch, 0} - bodies_.now);
+  length = min(length, tol::step_growth * crowd.step.last_length);
+  return min(length, Instant{crowd.step.next_switch, 0} - bodies_.now);
 }
 
 /// Lets bodies join that a member may meet before the list is made anew. Returns whether there are some.
 bool CrowdMotion::take_guests(Entity i) {
-  const std::shared_ptr<Crowd> crowd = bodies_.islands.of(i).crowds.front();
+  const shared_ptr<Crowd> crowd = bodies_.islands.of(i).crowds.front();
   CrowdReach& list = crowd->list;
   vector<Entity> near = std::exchange(bodies_.islands.of(i).watched, {});
   const double length = crowd->step.length;
-  const double need = std::max(list.need, length * (greatest(crowd->v) + 0.5 * length * crowd->load));
+  const double need = max(list.need, length * (greatest(crowd->v) + 0.5 * length * crowd->load));
 
   // Beyond its reach the list is made anew.
   const bool anew = !(list.gone + need <= list.reach);
@@ -334,7 +334,7 @@ vector<Entity> CrowdMotion::unite(Entity i, span<const Entity> guests) {
 /// Gathers the crowd of member i, whose regions are those of the list of an earlier crowd.
 void CrowdMotion::go_on_with(Entity i, Crowd& earlier) {
   Island& island = bodies_.islands.of(i);
-  for (const std::shared_ptr<Crowd>& crowd : island.crowds) close(*crowd, bodies_.now);
+  for (const shared_ptr<Crowd>& crowd : island.crowds) close(*crowd, bodies_.now);
   Crowd& crowd = gather(island);
   crowd.list = std::move(earlier.list);
   crowd.list.listed = false;
@@ -393,7 +393,7 @@ bool CrowdMotion::let_go(Crowd& crowd) {
   if (stay.size() == crowd.members.size()) return false;
 
   // The island may be no more, and its crowd with it.
-  const std::shared_ptr<Crowd> whole = bodies_.islands.of(crowd.members.front()).crowds.front();
+  const shared_ptr<Crowd> whole = bodies_.islands.of(crowd.members.front()).crowds.front();
   const Entity first = stay.empty() ? no_entity : stay.front();
   bodies_.islands.of(crowd.members.front()).end = bodies_.now;
   bodies_.islands.retain(crowd.members.front(), std::move(stay));
@@ -434,7 +434,7 @@ bool CrowdMotion::split(Crowd& crowd) {
   }
   if (parts < 2) return false;
 
-  const std::shared_ptr<Crowd> whole = bodies_.islands.of(crowd.members.front()).crowds.front();
+  const shared_ptr<Crowd> whole = bodies_.islands.of(crowd.members.front()).crowds.front();
   bodies_.islands.of(crowd.members.front()).end = bodies_.now;
   // Each part has a crowd of its own from here on, so that no member is in two.
   for (const Entity i : bodies_.islands.split(crowd.members.front(), label)) {
@@ -486,7 +486,7 @@ void CrowdMotion::begin(Crowd& crowd) {
 }
 
 void CrowdMotion::report(const Island& island, vector<ContactForce>& forces) {
-  for (const std::shared_ptr<Crowd>& crowd : island.crowds)
+  for (const shared_ptr<Crowd>& crowd : island.crowds)
     crowd->rows.for_each([&](size_t g, size_t lane) {
       const auto& [i, e] = crowd->rows.names[g][lane];
       const double force = crowd->rows.state[g].force[lane];
@@ -503,13 +503,13 @@ void CrowdMotion::count_calm(Island& island, Crowd& crowd) {
     if (!(crowd.rows.state[g].force[lane] > 0)) return;
     const auto& [i, e] = crowd.rows.names[g][lane];
     hash += (uint64_t{i} << 32 | e) * 0x9e3779b97f4a7c15u;
-    widest = std::max(widest, crowd.rows.state[g].shell[lane]);
+    widest = max(widest, crowd.rows.state[g].shell[lane]);
     ++pressing;
   });
 
   island.calm = hash == island.pressing ? island.calm + 1 : 0;
   island.pressing = hash;
-  crowd.rest.closing = island.calm >= std::max<size_t>(island.calm_needed, pressing);
+  crowd.rest.closing = island.calm >= max<size_t>(island.calm_needed, pressing);
   if (!crowd.rest.closing) return;
 
   // Shells close bit by bit, so that bodies do not fall.

@@ -57,7 +57,7 @@ void CrowdRows::add_part(span<const Pair> pairs, uint32_t movable, uint32_t dumm
 
   // Pairs of balls come first.
   Colours by_colour;
-  used_.resize(std::max<size_t>(used_.size(), movable));
+  used_.resize(max<size_t>(used_.size(), movable));
   for (const bool balls : {true, false}) {
     for (const Pair& pair : pairs) used_[pair.a] = used_[pair.b < movable ? pair.b : pair.a] = 0;
     for (vector<uint32_t>& colour : by_colour) colour.clear();
@@ -65,7 +65,7 @@ void CrowdRows::add_part(span<const Pair> pairs, uint32_t movable, uint32_t dumm
       const Pair& pair = pairs[k];
       if (pair.balls != balls) continue;
       const uint64_t taken = used_[pair.a] | (pair.b < movable ? used_[pair.b] : 0);
-      const auto colour = static_cast<uint32_t>(std::countr_one(taken));
+      const auto colour = uint32_t(std::countr_one(taken));
       by_colour[colour].push_back(k);
 
       if (colour == colours) continue;

@@ -29,7 +29,7 @@ inline void add(Four& four, const Vec3& change) {
 /// The greatest length of these vectors.
 inline double greatest(const vector<Four>& all) {
   double squared = 0;
-  for (const Four& each : all) squared = std::max(squared, vector_of(each).squaredNorm());
+  for (const Four& each : all) squared = max(squared, vector_of(each).squaredNorm());
   return std::sqrt(squared);
 }
 

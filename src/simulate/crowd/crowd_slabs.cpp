@@ -30,8 +30,8 @@ AxisCoordinates widest(const Crowd& crowd) {
     double least = never;
     double most = -never;
     for (size_t i = 0; i < crowd.members.size(); ++i) {
-      least = std::min(least, crowd.x[i].at[k]);
-      most = std::max(most, crowd.x[i].at[k]);
+      least = min(least, crowd.x[i].at[k]);
+      most = max(most, crowd.x[i].at[k]);
     }
     if (!(most - least > extent)) continue;
     axis = k;
@@ -46,7 +46,7 @@ AxisCoordinates widest(const Crowd& crowd) {
 double median_radius(const Crowd& crowd) {
   vector<double> radii;
   for (size_t k = 0; k < crowd.members.size(); ++k) radii.push_back(crowd.x[k].at[3]);
-  const auto middle = radii.begin() + static_cast<ptrdiff_t>(radii.size() / 2);
+  const auto middle = radii.begin() + ptrdiff_t(radii.size() / 2);
   std::nth_element(radii.begin(), middle, radii.end());
   return *middle;
 }
@@ -56,8 +56,8 @@ size_t count_of_slabs(const Crowd& crowd, double extent, double beyond_radii) {
   const size_t by_members = crowd.members.size() / tol::members_of_slab;
   if (by_members < 2) return 1;
   const double thinnest = tol::rows_through_slab * (2 * median_radius(crowd) + beyond_radii);
-  const double by_extent = std::min(extent / thinnest, static_cast<double>(by_members));
-  return std::max<size_t>(2 * static_cast<size_t>(by_extent / 2), 1);
+  const double by_extent = min(extent / thinnest, double(by_members));
+  return max<size_t>(2 * size_t(by_extent / 2), 1);
 }
 
 /// The coordinates between `count` slabs with as many members each.
@@ -77,9 +77,9 @@ vector<double> cuts_between(vector<double> at, size_t count) {
 /// 2 s in slab s, 2 s + 1 on the cut behind it. Of equal cuts it is the one nearest to the middle.
 uint32_t place_at(double coordinate, const vector<double>& cuts) {
   const auto [first, last] = std::equal_range(cuts.begin(), cuts.end(), coordinate);
-  if (first == last) return static_cast<uint32_t>(2 * (first - cuts.begin()));
-  const auto cut = std::clamp(cuts.begin() + static_cast<ptrdiff_t>(cuts.size() / 2), first, last - 1);
-  return static_cast<uint32_t>(2 * (cut - cuts.begin()) + 1);
+  if (first == last) return uint32_t(2 * (first - cuts.begin()));
+  const auto cut = clamp(cuts.begin() + ptrdiff_t(cuts.size() / 2), first, last - 1);
+  return uint32_t(2 * (cut - cuts.begin()) + 1);
 }
 
 template <typename T>

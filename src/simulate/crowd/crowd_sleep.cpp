@@ -35,7 +35,7 @@ void CrowdSleep::wake_pressed(Crowd& crowd) {
 vector<uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
   const double limit = tol::standstill * std::sqrt(crowd.load * crowd.smallest);  // m/s
   const auto moves = [&](size_t k) { return !(crowd.load > 0) || crowd.drift(k).norm() > limit; };
-  const auto count = static_cast<uint32_t>(crowd.members.size());
+  const auto count = uint32_t(crowd.members.size());
   bool all = true;
   for (uint32_t k = 0; all && k < count; ++k) all = !moves(k);
   vector<uint8_t> rests(count, all ? 1 : 0);
@@ -51,12 +51,12 @@ vector<uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
   for (uint32_t k = 0; k < count; ++k)
     if (moves(k)) moving[parts.root(k)] = 1;
   for (uint32_t k = 0; k < count; ++k) {
-    crowd.still[k] = moving[parts.root(k)] != 0 ? 0 : static_cast<uint8_t>(std::min(crowd.still[k] + 1, 255));
+    crowd.still[k] = moving[parts.root(k)] != 0 ? 0 : uint8_t(min(crowd.still[k] + 1, 255));
     rests[k] = crowd.still[k] >= tol::still_looks ? 1 : 0;
   }
 
   // The few that rest among others that move would wake soon.
-  if (2 * std::ranges::count(rests, 1) < static_cast<ptrdiff_t>(count)) std::ranges::fill(rests, 0);
+  if (2 * std::ranges::count(rests, 1) < ptrdiff_t(count)) std::ranges::fill(rests, 0);
   return rests;
 }
 
@@ -67,7 +67,7 @@ bool CrowdSleep::has_settled(Crowd& crowd) const {
   const bool carried =
       crowd.load > 0 && std::ranges::all_of(crowd.idle, [](uint8_t steps) { return steps <= tol::idle_steps; });
 
-  if (!carried || squares > limit * limit * static_cast<double>(crowd.members.size())) {
+  if (!carried || squares > limit * limit * double(crowd.members.size())) {
     crowd.rest.slow_since = {never, 0};
     return false;
   }
@@ -81,7 +81,7 @@ CrowdSleep::Holding CrowdSleep::touching(const Crowd& crowd, span<const uint8_t>
   holding.number.resize(crowd.members.size(), ContactConstraint::fixed);
   for (const uint32_t k : crowd.by_name)
     if (rests[k] != 0) {
-      holding.number[k] = static_cast<uint32_t>(holding.members.size());
+      holding.number[k] = uint32_t(holding.members.size());
       holding.members.push_back(k);
     }
 
@@ -138,7 +138,7 @@ bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const Cont
   kernels_.push(rows.hot.data(), rows.groups(), v.data());
 
   const double left = 0.1 * tol::balance * crowd.load;  // m/s^2, of a body by a sweep
-  const double goal = left * left * static_cast<double>(holding.members.size());
+  const double goal = left * left * double(holding.members.size());
   if (solver_.hold(rows, v, {1, goal, crowd.load, tol::sweeps_to_rest}).change > goal) return false;
 
   // Bodies would move, or rounding is left.

@@ -33,7 +33,7 @@ bool CrowdSolver::mark(const CrowdRows& rows, const vector<Four>& v, double leng
 void CrowdSolver::list_marked(const CrowdRows& rows, size_t part) {
   which_[part].clear();
   for (size_t k = rows.parts[part].begin; k < rows.parts[part].end; ++k)
-    if (marks_[k] != 0) which_[part].push_back(static_cast<uint32_t>(k));
+    if (marks_[k] != 0) which_[part].push_back(uint32_t(k));
 }
 
 /// Goes `beta` times along the last direction, in the rows of a part and with the bodies of its slab.
@@ -106,7 +106,7 @@ void CrowdSolver::scale(CrowdRows& rows, vector<Four>& v, const vector<Four>& fr
   const double target = rows.sum([&](size_t p) { return sums[p].aim; });
   if (!(gain > 0)) return;
 
-  const double factor = std::clamp(-target / gain, 0.0, greatest_scale);
+  const double factor = clamp(-target / gain, 0.0, greatest_scale);
   for (RowGroup& group : rows.hot)
     for (double& impulse : group.impulse) impulse *= factor;
   for (size_t i = 0; i < v.size(); ++i)

@@ -31,7 +31,7 @@ bool CrowdSteps::solve(Crowd& crowd) {
       safe = safe_length(crowd);
     }
     if (safe >= crowd.step.length || tries == tol::most_shortenings) break;
-    shorten(crowd, std::max(safe, 0.25 * crowd.step.length));
+    shorten(crowd, max(safe, 0.25 * crowd.step.length));
     crowd.v = before_;
     restart_if_short(crowd);
     before_ = crowd.v;
@@ -57,15 +57,14 @@ void CrowdSteps::shorten(Crowd& crowd, double length) {
 /// The longest step that the velocities of this instant allow (s). Impacts have made some of them greater.
 double CrowdSteps::longest(const Crowd& crowd) const {
   const double fastest = greatest(now_);
-  return fastest > 0 ? std::min(crowd.step.length, quality_.displacement * crowd.smallest / fastest)
-                     : crowd.step.length;
+  return fastest > 0 ? min(crowd.step.length, quality_.displacement * crowd.smallest / fastest) : crowd.step.length;
 }
 
 /// The share of a missing gap that a step restores: all of it in the time of falling by a radius, so that the return is
 /// as slow at every length of a step.
 double CrowdSteps::return_of_step(const Crowd& crowd) const {
   if (crowd.load == 0) return quality_.displacement;
-  return std::min(1.0, crowd.step.length / std::sqrt(2 * crowd.smallest / crowd.load));
+  return min(1.0, crowd.step.length / std::sqrt(2 * crowd.smallest / crowd.load));
 }
 
 /// Whether missing gaps return in this step. It costs energy, of which contacts must have taken more. Where bodies just
@@ -95,7 +94,7 @@ bool CrowdSteps::aim(Crowd& crowd) {
   StepTarget target;
   target.length = crowd.step.length;
   target.push = may_return(crowd) ? back : 0;
-  target.back = std::min(1.0, tol::quick_return * back);
+  target.back = min(1.0, tol::quick_return * back);
   target.share = tol::share_of_gap;
   target.below = tol::share_below;
   target.least = tol::gap_rounding * crowd.smallest;
@@ -228,10 +227,10 @@ double CrowdSteps::kinetic_energy(const Crowd& crowd) const {
 
 double CrowdSteps::lent(const Crowd& crowd, size_t k, double age) const {
   const Entity i = crowd.members[k];
-  const double ahead = std::min(age, crowd.lag[k]);
+  const double ahead = min(age, crowd.lag[k]);
   const Vec3 forces = bodies_.applied[i] - bodies_.fade[i] * crowd.drift(k);
   const double beyond = crowd.a[k].squaredNorm() - forces.squaredNorm();
-  return 0.5 * bodies_.world.mass[i] * ahead * ahead * std::max(beyond, 0.0);
+  return 0.5 * bodies_.world.mass[i] * ahead * ahead * max(beyond, 0.0);
 }
 
 void CrowdSteps::take(Crowd& crowd, double energy, double lent) const {
@@ -295,19 +294,19 @@ double CrowdSteps::speed_in_contact(const Crowd& crowd) {
   size_t pressing = 0;
   for (const Agitation& of : found) pressing += of.pressing;
   const double squares = rows.sum([&](size_t p) { return found[p].squares; });
-  return pressing > 0 ? std::sqrt(squares / static_cast<double>(pressing)) : 0;
+  return pressing > 0 ? std::sqrt(squares / double(pressing)) : 0;
 }
 
 /// What forces may leave, and how often they are improved.
 CrowdSolver::Goal CrowdSteps::goal(const Crowd& crowd) const {
-  const auto bodies = static_cast<double>(std::max(std::ranges::count(crowd.pressed, 1), ptrdiff_t{1}));
+  const auto bodies = double(max(std::ranges::count(crowd.pressed, 1), ptrdiff_t{1}));
   const double gained = crowd.load * crowd.step.length;
-  const double rounding = tol::gap_rounding * std::max(gained, greatest(before_));
+  const double rounding = tol::gap_rounding * max(gained, greatest(before_));
   // Slower bodies rest by the contact solver's forces.
   const double still = tol::tremor * std::sqrt(crowd.load * crowd.smallest);
-  const double speed = std::max(crowd.step.speed, still);
+  const double speed = max(crowd.step.speed, still);
   const double left =
-      quality_.accuracy * std::max(std::min(gained, tol::force_of_speed * speed), tol::least_force * speed) + rounding;
+      quality_.accuracy * max(min(gained, tol::force_of_speed * speed), tol::least_force * speed) + rounding;
   return {crowd.step.length, left * left * bodies, gained * crowd.step.length, quality_.sweeps};
 }
 
@@ -316,7 +315,7 @@ bool CrowdSteps::hold(Crowd& crowd) {
   const CrowdSolver::Goal aim = goal(crowd);
   SweepResult found = solver_.hold(crowd.rows, crowd.v, aim);
   if (found.is_short && give_up_returns(crowd)) {
-    crowd.step.waited = std::clamp(2 * crowd.step.waited, 1, tol::longest_wait);
+    crowd.step.waited = clamp(2 * crowd.step.waited, 1, tol::longest_wait);
     crowd.step.waits = crowd.step.waited + 1;
     crowd.v = free_;
     start_warm(crowd);
@@ -364,7 +363,7 @@ void CrowdSteps::keep_apart(Crowd& crowd) {
 
 /// The longest drift (s) after which no two overlap by more than is allowed.
 double CrowdSteps::safe_length(const Crowd& crowd) {
-  const double allowed = std::max(tol::gap_rounding, quality_.overlap) * crowd.smallest;
+  const double allowed = max(tol::gap_rounding, quality_.overlap) * crowd.smallest;
   vector<double> found(crowd.rows.parts.size());
   threads_.each(crowd.rows, [&](size_t p) {
     const auto& [begin, balls, end] = crowd.rows.parts[p];
@@ -417,7 +416,7 @@ vector<RowPlace> CrowdSteps::closing_rows(const Crowd& crowd, double rounding) {
     crowd.rows.for_each(crowd.rows.parts[p], [&](size_t g, size_t lane) {
       if (!(crowd.rows.hot[g].impulse[lane] > 0)) return;
       const RowState& state = crowd.rows.state[g];
-      if (state.force[lane] == 0 || approach(crowd, g, lane) > std::max(state.slow[lane], rounding))
+      if (state.force[lane] == 0 || approach(crowd, g, lane) > max(state.slow[lane], rounding))
         found[p].push_back({g, lane});
     });
   });
@@ -443,7 +442,7 @@ void CrowdSteps::absorb_approaches(Crowd& crowd) {
       RowGroup& row = crowd.rows.hot[g];
       const double speed = approach(crowd, g, lane);
 
-      const double impulse = std::min(row.impulse[lane], speed * row.share[lane]);
+      const double impulse = min(row.impulse[lane], speed * row.share[lane]);
       if (!(speed > rounding && impulse > 0)) continue;
       work += push(crowd, g, lane, impulse, before_);
       row.impulse[lane] -= impulse;
@@ -480,7 +479,7 @@ void CrowdSteps::find_forces(Crowd& crowd, size_t part) const {
 
 void CrowdSteps::finish(Crowd& crowd) {
   if (crowd.step.waits == 0) crowd.step.waited = 0;
-  crowd.step.waits = std::max(crowd.step.waits - 1, 0);
+  crowd.step.waits = max(crowd.step.waits - 1, 0);
   bodies_.log.count_crowd_step(crowd.step.solved);
   absorb_approaches(crowd);
   std::ranges::fill(crowd.pressed, 0);
@@ -489,7 +488,7 @@ void CrowdSteps::finish(Crowd& crowd) {
   for (size_t k = 0; k < crowd.members.size(); ++k) {
     crowd.v[k].at[3] = 1 / bodies_.world.mass[crowd.members[k]];
     crowd.a[k] = (crowd.drift(k) - vector_of(before_[k])) / (0.5 * crowd.step.length + crowd.lag[k]);
-    crowd.idle[k] = crowd.pressed[k] != 0 ? 0 : static_cast<uint8_t>(std::min(crowd.idle[k] + 1, 255));
+    crowd.idle[k] = crowd.pressed[k] != 0 ? 0 : uint8_t(min(crowd.idle[k] + 1, 255));
   }
 }
 

@@ -12,7 +12,7 @@ namespace carom {
 class CrowdThreads {
  public:
   /// They start when there are several slabs, and no more of them than slabs.
-  explicit CrowdThreads(int count) : count_(static_cast<size_t>(count)) {}
+  explicit CrowdThreads(int count) : count_(size_t(count)) {}
 
   /// Calls what(part) for each part of the rows, in any order.
   template <typename What>
@@ -47,10 +47,10 @@ class CrowdThreads {
   /// Calls task(thread, threads) by all threads, or by this one where there is one slab.
   template <typename Task>
   void run(const CrowdRows& rows, const Task& task) {
-    const size_t useful = std::min(count_, rows.first.size() - 1);
+    const size_t useful = min(count_, rows.first.size() - 1);
     if (useful < 2) return task(0, 1);
     if (started_ < useful) {
-      team_.emplace(static_cast<int>(useful));
+      team_.emplace(int(useful));
       started_ = useful;
     }
     if (alone_ > 0) {
@@ -58,11 +58,11 @@ class CrowdThreads {
       return task(0, 1);
     }
 
-    const size_t threads = std::min(static_cast<size_t>(team_->size()), useful);
+    const size_t threads = min(size_t(team_->size()), useful);
     const Clock::time_point begin = Clock::now();
     Clock::time_point own = begin;
     team_->run([&](int thread) {
-      if (static_cast<size_t>(thread) < threads) task(static_cast<size_t>(thread), threads);
+      if (size_t(thread) < threads) task(size_t(thread), threads);
       if (thread == 0) own = Clock::now();
     });
     count(own - begin, Clock::now() - own, threads);
@@ -73,7 +73,7 @@ class CrowdThreads {
     work_ += static_cast<Clock::rep>(threads - 1) * work;
     wait_ += wait;
     if (++tasks_ < 256) return;
-    pause_ = wait_ > work_ ? std::clamp(2 * pause_, 1, 64) : 0;
+    pause_ = wait_ > work_ ? clamp(2 * pause_, 1, 64) : 0;
     alone_ = pause_ * tasks_;
     tasks_ = 0;
     work_ = wait_ = {};

@@ -13,6 +13,7 @@
 #include "simulate/contact/flight_changes.h"
 #include "simulate/contact/region_exit.h"
 #include "simulate/path/path_log.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,8 +37,8 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   // The first body that it overlaps merges too. That merge looks for the next one.
   for (const Entity e : bodies_.neighbours_of(whole)) {
     if (!world.is_body(e)) continue;
-    const Entity first = std::min(whole, e);
-    const Entity second = std::max(whole, e);
+    const Entity first = min(whole, e);
+    const Entity second = max(whole, e);
     const Touch next = touch(world, first, bodies_.position(first), second, bodies_.position(second));
     if (next.gap < 0) return merge(first, second, next);
   }
@@ -69,7 +70,7 @@ Collision BodyMerging::meeting(Entity a, Entity b, const Touch& there) const {
   const double mass = mw + mp;
 
   const Vec3 w = bodies_.velocity(b) - bodies_.velocity(a);
-  const double approach = std::max(-w.dot(there.normal), 0.0);
+  const double approach = max(-w.dot(there.normal), 0.0);
   // The energy of the motion along the surfaces is lost too.
   const double impulse = approach * (mw * mp / mass);
   const double lost = 0.5 * (mw * mp / mass) * w.squaredNorm();

@@ -87,11 +87,11 @@ double ImpactRules::holding(double press, Entity i, Entity e) const {
   bool stepped = false;
   for (const Entity k : {i, e}) {
     if (!bodies_.world.is_body(k)) continue;
-    loads = std::max(loads, bodies_.applied[k].norm());
+    loads = max(loads, bodies_.applied[k].norm());
     stepped = stepped || bodies_.mode(k) == Mode::stepped;
   }
-  if (stepped) return std::max(press, loads);
-  press = std::max(press, pressed(i, e));
+  if (stepped) return max(press, loads);
+  press = max(press, pressed(i, e));
   return press > exact_tolerance::curve_rounding * loads ? press : 0;
 }
 
@@ -113,7 +113,7 @@ bool ImpactRules::move_as_one(Entity a, Entity b, double approach) const {
 void ImpactRules::book(const Collision& met, bool ends, double press, double length) const {
   const bool pressed = press > 0 || met.kind == CollisionKind::taut;
   const auto plastic = [&] {
-    return met.restitution == 0 && pressed && met.approach_speed > bodies_.slow_speed(std::max(press, 0.0), length);
+    return met.restitution == 0 && pressed && met.approach_speed > bodies_.slow_speed(max(press, 0.0), length);
   };
   const bool recorded = !ends || plastic();
   if (!recorded && !(met.approach_speed > 0)) return bodies_.log.absorb(met.energy_lost);
@@ -208,7 +208,7 @@ bool ImpactRules::ends(const FixedImpact& impact, bool again) {
 void ImpactRules::check_room(const FixedImpact& impact) const {
   const World& world = bodies_.world;
   const Vec3& n = impact.there.normal;
-  const double until = std::min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
+  const double until = min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
   const Entity i = impact.body;
 
   for (const Entity e : bodies_.neighbours_of(i)) {
@@ -242,7 +242,7 @@ StringImpact ImpactRules::find_string(Entity string) const {
   const Vec3 w = vb - va;
 
   const double rounding = exact_tolerance::velocity_rounding * (va.norm() + vb.norm());
-  const double approach = -w.dot(n) > std::max(bodies_.negligible_speed(), rounding) ? -w.dot(n) : 0;
+  const double approach = -w.dot(n) > max(bodies_.negligible_speed(), rounding) ? -w.dot(n) : 0;
   const Vec3 apart = bodies_.pull_of(string) - bodies_.pull_of(a);
   const double press = -(n.dot(apart) + bending(world, a, xa, string, xb, there, w));
   return {string,   a,     world.string(string).other,       there, world.string(string).restitution,

@@ -45,8 +45,8 @@ uint32_t ImpactSet::add_row(const Row& row) {
 void ImpactSet::set_velocity(uint32_t body, const Vec3& v) {
   Body& of = bodies_[body];
   of.v = next_[body] = v;
-  of.top = std::max(of.top, v.norm());
-  of.near = std::max(of.near, of.top);
+  of.top = max(of.top, v.norm());
+  of.near = max(of.near, of.top);
 }
 
 double ImpactSet::approach(uint32_t c) const {
@@ -71,7 +71,7 @@ double ImpactSet::speeds_near(uint32_t c) const {
 /// A projection is right to rounding of the greatest speed in it. A slow body beside a fast one has no better digits.
 void ImpactSet::share_rounding(const Projection& solved) {
   double greatest = 0;
-  for (const uint32_t body : solved.bodies) greatest = std::max(greatest, bodies_[body].near);
+  for (const uint32_t body : solved.bodies) greatest = max(greatest, bodies_[body].near);
   for (const uint32_t body : solved.bodies) bodies_[body].near = greatest;
 }
 
@@ -123,7 +123,7 @@ ImpactSet::Rows ImpactSet::links_at(span<const uint32_t> rows) const {
 }
 
 size_t ImpactSet::Projection::place_of(uint32_t body) const {
-  return static_cast<size_t>(std::ranges::find(bodies, body) - bodies.begin());
+  return size_t(std::ranges::find(bodies, body) - bodies.begin());
 }
 
 vector<Vec3> ImpactSet::velocities() const {
@@ -147,7 +147,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, span<const uint32_t> links, 
   vector<uint32_t> number(bodies_.size(), fixed);
   const auto place = [&](uint32_t body) {
     if (number[body] == fixed) {
-      number[body] = static_cast<uint32_t>(p.bodies.size());
+      number[body] = uint32_t(p.bodies.size());
       p.bodies.push_back(body);
     }
     return number[body];
@@ -190,9 +190,9 @@ ImpactSet::Projection ImpactSet::response(uint32_t c, span<const uint32_t> links
   Projection p;
   const auto place = [&](uint32_t body) {
     const auto it = std::ranges::find(p.bodies, body);
-    if (it != p.bodies.end()) return static_cast<uint32_t>(it - p.bodies.begin());
+    if (it != p.bodies.end()) return uint32_t(it - p.bodies.begin());
     p.bodies.push_back(body);
-    return static_cast<uint32_t>(p.bodies.size() - 1);
+    return uint32_t(p.bodies.size() - 1);
   };
 
   // The row's own bodies come first.
@@ -229,15 +229,14 @@ double ImpactSet::cosine(uint32_t c, uint32_t d, const Projection* response) con
     for (const uint32_t body : {p.a, p.b}) {
       if (body == fixed || (body != q.a && body != q.b)) continue;
       const double along = p.normal.dot(q.normal);
-      cosine = std::min(cosine, (p.a == body) == (q.a == body) ? along : -along);
+      cosine = min(cosine, (p.a == body) == (q.a == body) ? along : -along);
     }
     return cosine;
   }
 
   const auto change = [&](uint32_t body) {
     const auto it = std::ranges::find(response->bodies, body);
-    return it == response->bodies.end() ? Vec3(Vec3::Zero())
-                                        : response->v[static_cast<size_t>(it - response->bodies.begin())];
+    return it == response->bodies.end() ? Vec3(Vec3::Zero()) : response->v[size_t(it - response->bodies.begin())];
   };
   const auto opens = [&](const Row& r) {
     return r.normal.dot((r.b == fixed ? Vec3(Vec3::Zero()) : change(r.b)) - change(r.a));
@@ -425,8 +424,7 @@ vector<ImpactSet::Sum3> ImpactSet::expansion(const Rows& rows, const Projection&
     const auto push = [&](uint32_t body, double sign) {
       const DoubleDouble speed = impulse / DoubleDouble{sign * bodies_[body].mass, 0};
       Sum3& sum = gained[compressed.place_of(body)];
-      for (size_t axis = 0; axis < 3; ++axis)
-        sum[axis] = sum[axis] + speed * DoubleDouble{r.normal[static_cast<int>(axis)], 0};
+      for (size_t axis = 0; axis < 3; ++axis) sum[axis] = sum[axis] + speed * DoubleDouble{r.normal[int(axis)], 0};
     };
     push(r.a, -1);
     if (r.b != fixed) push(r.b, 1);
@@ -500,7 +498,7 @@ vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compr
     after[k] += share * dv[k];
     if (!set.links.empty() || share < 1) continue;
     for (int axis = 0; axis < 3; ++axis)
-      after[k][axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][static_cast<size_t>(axis)]).value();
+      after[k][axis] = (DoubleDouble{compressed.v[k][axis], 0} + gained[k][size_t(axis)]).value();
   }
   return after;
 }
@@ -539,7 +537,7 @@ void ImpactSet::share_losses(const Rows& bodies, size_t first) {
     const Body& of = bodies_[body];
     lost.add(0.5 * of.mass * (of.v - next_[body]).dot(of.v + next_[body]));
   }
-  const auto work = [](const Impact& impact) { return std::max(impact.impulse * impact.approach, 0.0); };
+  const auto work = [](const Impact& impact) { return max(impact.impulse * impact.approach, 0.0); };
   for (size_t k = first; k < impacts_.size(); ++k) {
     lost.add(-impacts_[k].impulse * rows_[impacts_[k].row].surface);
     all += work(impacts_[k]);
@@ -569,12 +567,12 @@ void ImpactSet::count() {
     if (!(impact.impulse > 0)) continue;
     RowState& r = rows_[impact.row];
     r.struck = true;
-    const double lost = std::max(1 - r.restitution, 0.0);
+    const double lost = max(1 - r.restitution, 0.0);
     endless_.sum += lost;
     for (const uint32_t body : {r.a, r.b}) {
       if (body == fixed) continue;
       bodies_[body].lost += lost;
-      endless_.most_struck = std::max(endless_.most_struck, ++bodies_[body].struck);
+      endless_.most_struck = max(endless_.most_struck, ++bodies_[body].struck);
     }
   }
 }
@@ -640,8 +638,7 @@ const vector<ImpactSet::Impact>& ImpactSet::end_endless(span<const uint32_t> app
   const Limit limit = find_limit();
 
   // Whether it is that of the last look.
-  const auto pressing =
-      static_cast<double>(std::ranges::count_if(limit.reached.impulse, [](double j) { return j > 0; }));
+  const auto pressing = double(std::ranges::count_if(limit.reached.impulse, [](double j) { return j > 0; }));
   const bool known = endless_.limit.size() == limit.v.size();
   const bool same = known && distance(endless_.limit, limit.v) <= tol::same_limit * tol::same_limit * limit.greatest;
   const bool elastic = std::ranges::any_of(approaching, [&](uint32_t c) { return rows_[c].restitution == 1; });

@@ -62,8 +62,8 @@ class ImpactSet {
   uint32_t add_body(double mass, const Vec3& v);
   /// Adds a row and returns its number.
   uint32_t add_row(const Row& row);
-  uint32_t bodies() const { return static_cast<uint32_t>(bodies_.size()); }
-  uint32_t rows() const { return static_cast<uint32_t>(rows_.size()); }
+  uint32_t bodies() const { return uint32_t(bodies_.size()); }
+  uint32_t rows() const { return uint32_t(rows_.size()); }
   const Row& row(uint32_t c) const { return rows_[c]; }
   span<const uint32_t> rows_of(uint32_t body) const { return bodies_[body].rows; }
   void set_restitution(uint32_t c, double e) { rows_[c].restitution = e; }

@@ -24,10 +24,10 @@ namespace tol = exact_tolerance;
 double InstantImpacts::close_times(const State& initial) const {
   double extent = 0;   // m
   double fastest = 0;  // m/s
-  for (const Vec3& x : initial.position) extent = std::max(extent, x.cwiseAbs().sum());
-  for (const Vec3& v : initial.velocity) fastest = std::max(fastest, v.norm());
-  for (const double radius : bodies_.world.radius) extent = std::max(extent, radius);
-  fastest = std::max(fastest, std::sqrt(bodies_.world.gravity.norm() * extent));
+  for (const Vec3& x : initial.position) extent = max(extent, x.cwiseAbs().sum());
+  for (const Vec3& v : initial.velocity) fastest = max(fastest, v.norm());
+  for (const double radius : bodies_.world.radius) extent = max(extent, radius);
+  fastest = max(fastest, std::sqrt(bodies_.world.gravity.norm() * extent));
   return tol::tie_of_places * (fastest > 0 ? extent / fastest : bodies_.options.duration);
 }
 
@@ -114,10 +114,10 @@ bool InstantImpacts::is_known(const Moment& now, Entity a, Entity thing) {
 void InstantImpacts::add_due(Moment& now, const Due& due) const {
   const World& world = bodies_.world;
   const bool pair = world.is_body(due.thing);
-  const Entity a = pair                         ? std::min(due.body, due.thing)
+  const Entity a = pair                         ? min(due.body, due.thing)
                    : world.is_string(due.thing) ? world.string(due.thing).body
                                                 : due.body;
-  const Entity thing = pair ? std::max(due.body, due.thing) : due.thing;
+  const Entity thing = pair ? max(due.body, due.thing) : due.thing;
   const Touch there = pair ? rules_.find_pair(a, thing, due.feature).there
                       : world.is_string(thing)
                           ? bodies_.string_now(thing)
@@ -135,8 +135,8 @@ double InstantImpacts::near_gap(Entity i, Entity thing) const {
   const bool lasting =
       in_lasting_contact(bodies_.mode(i)) && (second == no_entity || in_lasting_contact(bodies_.mode(second)));
   const double rounding = tol::initial_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum() + bodies_.world.radius[i]);
-  if (bodies_.world.is_string(thing)) return std::max(rounding, bodies_.contact_gap(i, x, xe));
-  return lasting ? std::max(rounding, tol::drift * bodies_.world.radius[i]) : rounding;
+  if (bodies_.world.is_string(thing)) return max(rounding, bodies_.contact_gap(i, x, xe));
+  return lasting ? max(rounding, tol::drift * bodies_.world.radius[i]) : rounding;
 }
 
 /// Adds all that touches body i, and the strings and rods that hold it.
@@ -152,8 +152,8 @@ void InstantImpacts::gather(Moment& now, Entity i) const {
   for (const Entity e : bodies_.neighbours_of(i)) {
     const bool body = world.is_body(e);
     if (body && (!is_in_world(bodies_.mode(e)) || bodies_.mode(e) == Mode::stepped)) continue;
-    const Entity a = body ? std::min(i, e) : i;
-    const Entity thing = body ? std::max(i, e) : e;
+    const Entity a = body ? min(i, e) : i;
+    const Entity thing = body ? max(i, e) : e;
     if (is_known(now, a, thing)) continue;
 
     const Vec3 xe = bodies_.position_of(e);
@@ -428,7 +428,7 @@ void InstantImpacts::note(Moment& now, const ImpactSet::Impact& impact, bool las
   }
   const bool settles = row.rests && row.contact.settling;
   row.record = inelastic && !(settles && row.contact.residual_speed > 0) ? now.records.size() : none;
-  const double approach = std::max(impact.approach, 0.0);  // of a pair that others press, rounding
+  const double approach = max(impact.approach, 0.0);  // of a pair that others press, rounding
   now.records.push_back({impact.row, row.ends, row.e, approach, impact.separation, impact.impulse, impact.lost});
   Record& record = now.records.back();
   if (inelastic) record.separation = 0;
@@ -446,7 +446,7 @@ void InstantImpacts::note(Moment& now, const ImpactSet::Impact& impact, bool las
 /// e above 1 make their energy themselves.
 void InstantImpacts::share_gains(Moment& now) {
   double greatest = 0;  // N s
-  for (const Record& of : now.records) greatest = std::max(greatest, of.impulse);
+  for (const Record& of : now.records) greatest = max(greatest, of.impulse);
 
   double lost = 0;    // J
   double others = 0;  // J
@@ -462,7 +462,7 @@ void InstantImpacts::share_gains(Moment& now) {
 
   // More than all can only be rounding.
   if (lost + others < 0) bodies_.log.deviate(lost + others);
-  const double share = lost > 0 ? std::max(lost + others, 0.0) / lost : 0;
+  const double share = lost > 0 ? max(lost + others, 0.0) / lost : 0;
   for (Record& of : now.records)
     if (of.e <= 1) of.lost *= share;
 }

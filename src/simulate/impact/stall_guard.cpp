@@ -8,6 +8,7 @@
 
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
+#include "std.h"
 
 namespace carom {
 
@@ -22,8 +23,8 @@ void StallGuard::count(Happened what, double now) {
   ++at_instant_;
 
   if (impact) {
-    highest_ = std::max(highest_, restitution_);
-    lowest_ = std::min(lowest_, restitution_);
+    highest_ = max(highest_, restitution_);
+    lowest_ = min(lowest_, restitution_);
     moved_ = moved_ || moving_;
   }
 

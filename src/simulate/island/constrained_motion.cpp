@@ -126,7 +126,7 @@ IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool und
     step.x.push_back(x);
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
-    step.smallest = std::min(step.smallest, bodies_.world.radius[i]);
+    step.smallest = min(step.smallest, bodies_.world.radius[i]);
     bodies_.refresh(i, x, v);
   }
 
@@ -197,7 +197,7 @@ void ConstrainedMotion::begin_flights(const IslandStep& step) {
       step.motion.forces->leave_out(k);
 
   if (step.motion.forces)
-    bodies_.contact_work.follow(stay, bodies_.now, std::make_shared<IslandWork>(step.path, step.motion.forces));
+    bodies_.contact_work.follow(stay, bodies_.now, make_shared<IslandWork>(step.path, step.motion.forces));
   bodies_.islands.retain(step.members.front(), std::move(stay));
 }
 

@@ -42,7 +42,7 @@ class ConstrainedMotion {
  private:
   /// The path that a body follows, if it is still on this flight.
   struct Following {
-    std::shared_ptr<const IslandPath> path;
+    shared_ptr<const IslandPath> path;
     uint32_t place = 0;    // number in the path
     uint16_t version = 0;  // of the flight
     bool bound = false;    // things other than flat surfaces press on the body

@@ -25,7 +25,7 @@ namespace {
 
 /// Keeps a speed above zero, so that products divided by it stay finite.
 double at_least_tiny(double fastest) {
-  return std::max(fastest, 0x1p-900);
+  return max(fastest, 0x1p-900);
 }
 
 /// The speed of approach (m/s). A rod may push, which is a pull along the other direction.
@@ -48,7 +48,7 @@ void ConstrainedSteps::complete(IslandStep& step, double next_length) const {
 /// Of the usual error of a step, the share that is asked for. What else counts as rounding is as much smaller, or a run
 /// with smaller errors would not show what it does. Contacts allow for no greater errors.
 double ConstrainedSteps::share_of_errors() const {
-  return std::min(1.0, bodies_.options.step_error / tol::step_error);
+  return min(1.0, bodies_.options.step_error / tol::step_error);
 }
 
 void ConstrainedSteps::close_overlaps(IslandStep& step) const {
@@ -68,7 +68,7 @@ void ConstrainedSteps::close_overlaps(IslandStep& step) const {
 /// Contact takes away the approach of pairs. A struck body that others behind it hold up has an impact in turn with the
 /// strike, as with e = 0.
 void ConstrainedSteps::take_approaches(IslandStep& step) const {
-  for (const Vec3& v : step.v) step.fastest = std::max(step.fastest, v.norm());
+  for (const Vec3& v : step.v) step.fastest = max(step.fastest, v.norm());
   for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     ContactConstraint& p = step.contacts.pairs[c];
     const Entity e = step.contacts.names[c].e;
@@ -137,14 +137,14 @@ vector<AbsorbedImpact> ConstrainedSteps::absorbed_impacts(const IslandStep& step
     const vector<Vec3> first = v;
     solve({step.inverse_mass, v, rows});
     for (size_t k = 0; k < which.size(); ++k) {
-      const double lost = std::max(0.5 * rows[k].force * (approach(first, rows[k]) + approach(v, rows[k])), 0.0);
+      const double lost = max(0.5 * rows[k].force * (approach(first, rows[k]) + approach(v, rows[k])), 0.0);
       impacts[which[k]].lost += lost;
       in_rounds += lost;
     }
   }
 
   // Impulses of one round may end in a later one. Energy is that of all together.
-  for (AbsorbedImpact& impact : impacts) impact.lost *= in_rounds > 0 ? std::max(all, 0.0) / in_rounds : 0;
+  for (AbsorbedImpact& impact : impacts) impact.lost *= in_rounds > 0 ? max(all, 0.0) / in_rounds : 0;
   return impacts;
 }
 
@@ -156,7 +156,7 @@ void ConstrainedSteps::record_fast(IslandStep& step, vector<AbsorbedImpact>& imp
     const auto& [i, e, feature] = step.contacts.names[c];
     const bool presses = p.force > 0 || (p.bilateral && p.force < 0);
     const double slow = step.load > 0 ? bodies_.slow_speed(step.load, bodies_.smaller_length(i, e)) : 0;
-    if (!(presses && impacts[c].approach > std::max(slow, step.contacts.slow[c]))) continue;
+    if (!(presses && impacts[c].approach > max(slow, step.contacts.slow[c]))) continue;
 
     const double sign = p.force < 0 ? -1 : 1;
     const Touch there = touch(world, i, step.x[p.a], e, step.position_of(bodies_, e), feature);
@@ -276,8 +276,8 @@ void ConstrainedSteps::check_digits(const IslandStep& step, double acceleration)
     if (!bodies_.world.is_string(e)) continue;
     const ContactConstraint& p = step.contacts.pairs[c];
     const double of_e = inverse_mass_of_b(step.inverse_mass, p);
-    const double by_force = std::abs(p.force) * std::max(step.inverse_mass[p.a], of_e);  // m/s^2
-    const double noticeable = tol::arbitrary * acceleration;                             // m/s^2
+    const double by_force = std::abs(p.force) * max(step.inverse_mass[p.a], of_e);  // m/s^2
+    const double noticeable = tol::arbitrary * acceleration;                        // m/s^2
     const double turn = turn_by_rounding(step, c);
 
     // Forces are great where a motion is across almost all pairs that bear. An error along them is then one across them
@@ -326,7 +326,7 @@ double ConstrainedSteps::leverage(const IslandStep& step, size_t pair) const {
     if (std::abs(approach(moved, p) + p.target) > 0.25) return never;
 
   double farthest = 0;
-  for (const Vec3& u : moved) farthest = std::max(farthest, u.norm());
+  for (const Vec3& u : moved) farthest = max(farthest, u.norm());
   return farthest;
 }
 
@@ -354,7 +354,7 @@ void ConstrainedSteps::find_resting(IslandStep& step) const {
   step.fastest = 0;
   for (size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
-    step.fastest = std::max(step.fastest, speed);
+    step.fastest = max(step.fastest, speed);
     // What drag alone balances goes on.
     const Entity i = step.members[k];
     const Vec3 drag = bodies_.force_at(i, step.x[k], step.v[k]) - bodies_.force_at(i, step.x[k], Vec3::Zero());
@@ -432,7 +432,7 @@ double ConstrainedSteps::longest(IslandStep& step) const {
   for (size_t k = 0; k < step.x.size(); ++k)
     if (step.fates[k].leaves()) {
       const double since = bodies_.now - group_.member[step.members[k]].needed;
-      h = std::min(h, std::max(step.grace - since, 0.25 * step.grace));
+      h = min(h, max(step.grace - since, 0.25 * step.grace));
     }
   return h;
 }
@@ -444,20 +444,20 @@ void ConstrainedSteps::choose_motion(IslandStep& step, ConstrainedSystem& system
   const bool all_rest = std::ranges::all_of(step.fates, [](const MemberFate& fate) { return fate.rests; });
   const double straight = all_rest ? step.length : system.straight_time(step.x, step.v, step.a);
 
-  if (!(straight >= std::min(step.length, time))) {
+  if (!(straight >= min(step.length, time))) {
     if (step.undisturbed)
       follow(step, system, next_length);
     else
-      step.length = std::min(step.length, tol::moment * time);
+      step.length = min(step.length, tol::moment * time);
     return;
   }
 
   step.motion.inexact = straight < never && !all_rest;
-  step.length = std::min(step.length, straight);
-  step.fade = all_rest ? 0 : std::max(system.common_fade(), 0.0);
+  step.length = min(step.length, straight);
+  step.fade = all_rest ? 0 : max(system.common_fade(), 0.0);
   for (size_t c = 0; c < step.contacts.pairs.size(); ++c)
     if (!step.fates[step.contacts.pairs[c].a].rests)
-      step.length = std::min({step.length, rim_time(step, c, step.length), away_time(step, c)});
+      step.length = min({step.length, rim_time(step, c, step.length), away_time(step, c)});
 }
 
 /// Takes a step of the method.
@@ -469,8 +469,8 @@ void ConstrainedSteps::follow(IslandStep& step, ConstrainedSystem& system, doubl
   step.motion.inexact = true;
   step.motion.next_length = followed.next;
   step.motion.changes = followed.changes;
-  step.path = std::make_shared<IslandPath>(IslandPath{bodies_.now, std::move(followed.motion)});
-  if (system.works()) step.motion.forces = std::make_shared<ConstrainedSystem>(std::move(system));
+  step.path = make_shared<IslandPath>(IslandPath{bodies_.now, std::move(followed.motion)});
+  if (system.works()) step.motion.forces = make_shared<ConstrainedSystem>(std::move(system));
 }
 
 /// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not
@@ -496,7 +496,7 @@ double ConstrainedSteps::rim_time(const IslandStep& step, size_t pair, double le
   const FadingPath of_e{m.d, m.w, m.a, step.fade};
   const double leaves = step.fade == 0 ? leave_feature(world, i, e, feature, m, length).time
                                        : leave_feature(world, i, of_i, e, of_e, feature, length).time;
-  return std::max(leaves, over);
+  return max(leaves, over);
 }
 
 /// The time (s) at which a separating pair, or one about to separate, is so far apart that it may meet again.
@@ -506,11 +506,11 @@ double ConstrainedSteps::away_time(const IslandStep& step, size_t pair) const {
   const auto& [i, e, feature] = step.contacts.names[pair];
   const double u = step.parting_speed(bodies_, pair);
   const double w = p.normal.dot(step.pull_of(bodies_, e) - step.a[p.a]);
-  const double far = 4 * tol::contact_gap * std::max(bodies_.world.radius[i], step.smallest);  // m
+  const double far = 4 * tol::contact_gap * max(bodies_.world.radius[i], step.smallest);  // m
 
   double t = never;
-  if (u > 0) t = std::min(t, far / u);
-  if (w > 0) t = std::min(t, std::sqrt(2 * far / w));
+  if (u > 0) t = min(t, far / u);
+  if (w > 0) t = min(t, std::sqrt(2 * far / w));
   return t;
 }
 

@@ -50,7 +50,7 @@ double bend_radius(const World& world, Entity i, Entity e) {
 
 double smaller_radius(const World& world, const Contact& c) {
   const Entity second = world.second_body(c.e);
-  return second != no_entity ? std::min(world.radius[c.i], world.radius[second]) : world.radius[c.i];
+  return second != no_entity ? min(world.radius[c.i], world.radius[second]) : world.radius[c.i];
 }
 
 bool is_rod(const World& world, Entity e) {
@@ -76,7 +76,7 @@ double first_time(const DenseMotion& motion, double from, double to, Happens hap
 
 double greatest_norm(const vector<Vec3>& v) {
   double greatest = 0;
-  for (const Vec3& of : v) greatest = std::max(greatest, of.norm());
+  for (const Vec3& of : v) greatest = max(greatest, of.norm());
   return greatest;
 }
 
@@ -187,7 +187,7 @@ Vec3 ConstrainedSystem::moved(const DenseMotion& motion, const vector<Vec3>& x, 
 /// Allows rods path errors of the accelerations, where other rods hold their ends already.
 void ConstrainedSystem::allow_contradictions(const vector<Vec3>& a, vector<ContactConstraint>& rows) const {
   double greatest = greatest_norm(a);
-  for (const ContactConstraint& row : rows) greatest = std::max(greatest, std::abs(row.target));
+  for (const ContactConstraint& row : rows) greatest = max(greatest, std::abs(row.target));
   for (size_t c = 0; c < rows.size(); ++c)
     if (is_rod(world_, closed_[c].e)) rows[c].slack = tol::step_error * greatest;
 }
@@ -229,31 +229,30 @@ double ConstrainedSystem::relative_speed(const vector<Vec3>& v) const {
   double fastest = 0;
   const auto take = [&](const vector<Contact>& contacts, const vector<ContactConstraint>& rows) {
     for (size_t c = 0; c < contacts.size(); ++c)
-      fastest = std::max(fastest, relative_velocity(v, rows[c], contacts[c].e).norm());
+      fastest = max(fastest, relative_velocity(v, rows[c], contacts[c].e).norm());
   };
   take(closed_, rows_);
   take(opened_, opened_rows_);
   for (size_t k = 0; k < members_.size(); ++k)
-    if (applied_[k].bent || applied_[k].fade > 0) fastest = std::max(fastest, v[k].norm());
+    if (applied_[k].bent || applied_[k].fade > 0) fastest = max(fastest, v[k].norm());
   return fastest;
 }
 
 ConstrainedSystem::Scales ConstrainedSystem::scales(const vector<Vec3>& x, const vector<Vec3>& v) const {
   Scales s;
   double farthest = 0;
-  for (const Entity i : members_) s.length = std::min(s.length, world_.radius[i]);
-  for (const Vec3& at : x) farthest = std::max(farthest, at.cwiseAbs().maxCoeff());
+  for (const Entity i : members_) s.length = min(s.length, world_.radius[i]);
+  for (const Vec3& at : x) farthest = max(farthest, at.cwiseAbs().maxCoeff());
 
   s.acceleration = greatest_norm(forces_at(x, v));
-  for (const ContactConstraint& row : rows_) s.acceleration = std::max(s.acceleration, std::abs(row.target));
-  s.speed = std::max(relative_speed(v), std::sqrt(s.acceleration * s.length));
+  for (const ContactConstraint& row : rows_) s.acceleration = max(s.acceleration, std::abs(row.target));
+  s.speed = max(relative_speed(v), std::sqrt(s.acceleration * s.length));
 
   // The greatest term of the forces' sum.
   double strongest = s.acceleration;
   for (size_t k = 0; k < v.size(); ++k)
-    if (applied_[k].fade > 0)
-      strongest = std::max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
-  s.opening = strongest * std::max(tol::opening, tol::contact_rounding * farthest / s.length);
+    if (applied_[k].fade > 0) strongest = max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
+  s.opening = strongest * max(tol::opening, tol::contact_rounding * farthest / s.length);
   return s;
 }
 
@@ -295,8 +294,8 @@ double ConstrainedSystem::turning_time(double load, double bend, double w, doubl
   const double share = std::sqrt(6 * step_error_ * bend / load);
   double rounded = never;
   if (w > 0) rounded = cube_root(3 * rounding * bend / (load * w));
-  if (a > 0) rounded = std::min(rounded, std::sqrt(std::sqrt(12 * rounding * bend / (load * a))));
-  return std::max(share, rounded);
+  if (a > 0) rounded = min(rounded, std::sqrt(std::sqrt(12 * rounding * bend / (load * a))));
+  return max(share, rounded);
 }
 
 /// The time for which parabolas stay on closed contacts, and for which open contacts cannot return unseen.
@@ -305,7 +304,7 @@ double ConstrainedSystem::turning_time(double load, double bend, double w, doubl
 /// the parabola by less than the method's error. The forces keep their direction meanwhile.
 double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const {
   double h = never;
-  const double fade = std::max(common_fade(), 0.0);
+  const double fade = max(common_fade(), 0.0);
   const vector<double> roundings = place_roundings(x, v, a);
 
   const auto keep = [&](const vector<Contact>& contacts, const vector<ContactConstraint>& rows) {
@@ -319,11 +318,11 @@ double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3
       const double pull = relative(a, rows[c]).norm();
 
       const double bent = pull + w * w / bend;
-      if (bent > 0) h = std::min(h, std::sqrt(std::sqrt(8 * room) / bent));
-      if (w * bent > 0) h = std::min(h, cube_root(2 * room / (w * bent)));
-      h = std::min(h, turning_time(reaction(rows[c]), bend, w, pull, distance_rounding(roundings, rows[c], e)));
+      if (bent > 0) h = min(h, std::sqrt(std::sqrt(8 * room) / bent));
+      if (w * bent > 0) h = min(h, cube_root(2 * room / (w * bent)));
+      h = min(h, turning_time(reaction(rows[c]), bend, w, pull, distance_rounding(roundings, rows[c], e)));
       // On a path that drag bends the acceleration decays, and that across the surface does not.
-      if (fade * w > 0) h = std::min(h, std::max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
+      if (fade * w > 0) h = min(h, max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
     }
   };
 
@@ -333,10 +332,10 @@ double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3
   if (common_fade() >= 0) return h;
 
   double length = never;
-  for (const Entity i : members_) length = std::min(length, world_.radius[i]);
+  for (const Entity i : members_) length = min(length, world_.radius[i]);
   // m/s^3, an upper bound: the effect of drag on forces in flat contacts.
   const double jerk = greatest_fade() * greatest_norm(a);
-  return jerk > 0 ? std::min(h, cube_root(6 * step_error_ * length / jerk)) : h;
+  return jerk > 0 ? min(h, cube_root(6 * step_error_ * length / jerk)) : h;
 }
 
 /// The errors that a step may have: shares of the motion itself, as far as rounding allows. Near an equilibrium speeds
@@ -349,9 +348,9 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
   double rounded = 0;  // m/s, by the rounding of what turns forces
 
   const auto take = [&](double of_rate, double speed, double rounding) {
-    rate = std::max(rate, of_rate);
-    fastest = std::max(fastest, speed);
-    rounded = std::max(rounded, of_rate * rounding);
+    rate = max(rate, of_rate);
+    fastest = max(fastest, speed);
+    rounded = max(rounded, of_rate * rounding);
   };
 
   for (size_t c = 0; c < closed_.size(); ++c) {
@@ -359,7 +358,7 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
     if (is_flat(world_, i, e, feature)) continue;
     const double bend = bend_radius(world_, i, e);
     const double w = relative_velocity(v, rows_[c], e).norm();
-    take(std::max(std::sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
+    take(max(std::sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
   }
 
   // Forces that vary refer to places and velocities in space.
@@ -371,21 +370,20 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
     if (!applied_[k].bent) continue;
 
     const double swings = std::sqrt(force_jacobian(world_, i, time_, x[k], v[k]).by_position.norm());
-    take(std::min(swings, force_rate(world_, i, x[k], v[k])), 0, roundings[k]);
-    width = std::min(width, force_reach(world_, i, x[k]));
-    left = std::min(left, left_of_speed(world_, i, time_, x[k], v[k]));
+    take(min(swings, force_rate(world_, i, x[k], v[k])), 0, roundings[k]);
+    width = min(width, force_reach(world_, i, x[k]));
+    left = min(left, left_of_speed(world_, i, time_, x[k], v[k]));
   }
 
   // The speed that the motion reaches, from rest, before accelerations change.
   const double pull = greatest_norm(a);
   double gained = std::sqrt(pull * width);
-  if (rate > 0) gained = std::min(gained, pull / rate);
-  if (const double fade = greatest_fade(); fade > 0) gained = std::min(gained, pull / fade);
+  if (rate > 0) gained = min(gained, pull / rate);
+  if (const double fade = greatest_fade(); fade > 0) gained = min(gained, pull / fade);
 
   const double place = *std::ranges::max_element(roundings);
-  const double speed = step_error_ * left * std::max(fastest, gained);
-  return {std::max(step_error_ * left * width, place),
-          std::max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
+  const double speed = step_error_ * left * max(fastest, gained);
+  return {max(step_error_ * left * width, place), max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
 }
 
 /// The longest step (s) in which no member comes to more than half of its way to an attractor.
@@ -394,7 +392,7 @@ double ConstrainedSystem::within_reach(const vector<Vec3>& x, const vector<Vec3>
   for (size_t k = 0; k < members_.size(); ++k) {
     if (!applied_[k].bent) continue;
     const double time = step_within(force_reach(world_, members_[k], x[k]), v[k].norm(), a[k].norm());
-    if (time > 0) longest = std::min(longest, time);
+    if (time > 0) longest = min(longest, time);
   }
   return longest;
 }
@@ -407,7 +405,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const vector<Vec3>& x, con
   held_ = rows_;
   for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.independent > 0;
   allowed_ = allowed_errors(x, v, a);
-  const double h = std::min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a)});
+  const double h = min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a)});
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
   if (greatest_fade() * h > 1 && !any_bent())
     if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
@@ -438,7 +436,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const vector<Vec3>&
 
   const double rounded = rounding_ * greatest_norm(v);  // m/s
   const auto step = [&](double length) {
-    return motion->step(length, smooth, std::max(allowed_.place, length * rounded), allowed_.speed);
+    return motion->step(length, smooth, max(allowed_.place, length * rounded), allowed_.speed);
   };
 
   // Shorter steps follow until the error is allowed.
@@ -530,7 +528,7 @@ double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
 
 double ConstrainedSystem::greatest_fade() const {
   double fade = 0;
-  for (const Applied& of : applied_) fade = std::max(fade, of.fade);
+  for (const Applied& of : applied_) fade = max(fade, of.fade);
   return fade;
 }
 
@@ -558,10 +556,10 @@ double ConstrainedSystem::first_change(const DenseMotion& motion) {
     if (from >= first) break;
 
     motion.at(to, x, v);
-    if (rim(x)) first = std::min(first, first_time(motion, from, to, rim));
+    if (rim(x)) first = min(first, first_time(motion, from, to, rim));
     const Opened opened = classify_opened(motion, x);
-    if (opened == Opened::away) first = std::min(first, to);
-    if (opened == Opened::back) first = std::min(first, first_time(motion, from, to, back));
+    if (opened == Opened::away) first = min(first, to);
+    if (opened == Opened::back) first = min(first, first_time(motion, from, to, back));
   }
   return first;
 }
@@ -574,7 +572,7 @@ double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
   const vector<Vec3> a = accelerate(x, v);
   double greatest = 0;
   for (size_t c = 0; c < rows_.size(); ++c)
-    if (!rows_[c].bilateral) greatest = std::max(greatest, gap_acceleration(c, a));
+    if (!rows_[c].bilateral) greatest = max(greatest, gap_acceleration(c, a));
   return greatest / scales_.opening;
 }
 
@@ -612,8 +610,8 @@ bool ConstrainedSystem::over_rim(const DenseMotion& motion, const vector<Vec3>& 
     const ContactConstraint& row = rows_[c];
     const Vec3 xe = place_of(x, row.b, e);
     if (touch(world_, i, x[row.a], e, xe).feature == feature) continue;
-    const double over = std::max(tol::step_error * smaller_radius(world_, closed_[c]),
-                                 tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum()));  // m
+    const double over = max(tol::step_error * smaller_radius(world_, closed_[c]),
+                            tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum()));  // m
     if (moved(motion, x, row, e).norm() > over) return true;
   }
   return false;
@@ -636,10 +634,10 @@ ConstrainedSystem::Opened ConstrainedSystem::classify_opened(const DenseMotion& 
                                                             : xe;
 
     const double rounding = tol::contact_rounding * (x[row.a].cwiseAbs().sum() + xe.cwiseAbs().sum());
-    if (gap < -std::max(tol::step_error * least, rounding) &&
+    if (gap < -max(tol::step_error * least, rounding) &&
         gap < touch(world_, i, motion.start(row.a), e, xe_first).gap - tol::step_error * least)
       return Opened::back;
-    if (gap > std::max(tol::contact_gap * least, rounding)) all = Opened::away;
+    if (gap > max(tol::contact_gap * least, rounding)) all = Opened::away;
   }
   return all;
 }

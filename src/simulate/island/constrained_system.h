@@ -107,7 +107,7 @@ class ConstrainedSystem {
 
   const Carrier* carrier_of(Entity e) const;
   size_t place_of_carrier(const Carrier& carrier) const {
-    return members_.size() + static_cast<size_t>(&carrier - carriers_.data());
+    return members_.size() + size_t(&carrier - carriers_.data());
   }
   vector<Vec3> with_carriers(vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
   Vec3 relative_velocity(const vector<Vec3>& v, const ContactConstraint& row, Entity e) const;

@@ -73,7 +73,7 @@ double ContactSearch::load_of(const IslandStep& step) const {
   const auto pull = [&](size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
   const Vec3 common = held ? Vec3(Vec3::Zero()) : pull(0);
   double greatest = 0;
-  for (size_t k = 0; k < step.members.size(); ++k) greatest = std::max(greatest, (pull(k) - common).norm());
+  for (size_t k = 0; k < step.members.size(); ++k) greatest = max(greatest, (pull(k) - common).norm());
   return greatest;
 }
 
@@ -90,7 +90,7 @@ void ContactSearch::find_slow_speeds(IslandStep& step) const {
     const bool pressed = press > tol::curve_rounding * step.load;
     const double slow = pressed ? bodies_.slow_speed(press, bodies_.smaller_length(i, e)) : 0;
     const double errors = bodies_.drift_of(i, step.v[p.a], step.velocity_of(bodies_, e));
-    contacts.slow[c] = std::max({slow, errors, std::numeric_limits<double>::min()});
+    contacts.slow[c] = max({slow, errors, numeric_limits<double>::min()});
   }
 }
 

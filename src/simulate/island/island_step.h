@@ -41,18 +41,18 @@ struct IslandPath {
 class IslandWork final : public WorkingPath {
  public:
   IslandWork() = default;  // to be restored
-  IslandWork(std::shared_ptr<const IslandPath> path, std::shared_ptr<const ConstrainedSystem> forces)
+  IslandWork(shared_ptr<const IslandPath> path, shared_ptr<const ConstrainedSystem> forces)
       : path_(std::move(path)), forces_(std::move(forces)) {}
 
   double work(double seconds) const override {
-    return forces_->work(*path_->motion, std::min(seconds, path_->motion->length()));
+    return forces_->work(*path_->motion, min(seconds, path_->motion->length()));
   }
 
   void keep(auto& archive) { archive(path_, forces_); }
 
  private:
-  std::shared_ptr<const IslandPath> path_;
-  std::shared_ptr<const ConstrainedSystem> forces_;
+  shared_ptr<const IslandPath> path_;
+  shared_ptr<const ConstrainedSystem> forces_;
 };
 
 /// What becomes of a member.
@@ -96,13 +96,13 @@ struct IslandStep {
   // s. A body that nothing binds stays for the time `grace`, to fall back.
   double length = 0;
   double grace = 0;
-  double fade = 0;                         // 1/s, of all members' accelerations
-  std::shared_ptr<const IslandPath> path;  // none: parabolas
+  double fade = 0;                    // 1/s, of all members' accelerations
+  shared_ptr<const IslandPath> path;  // none: parabolas
 
   /// What is known besides when the motion has been chosen.
   struct Motion {
     // Of the path, where things that move take part: to integrate their work. none: they do not.
-    std::shared_ptr<ConstrainedSystem> forces;
+    shared_ptr<ConstrainedSystem> forces;
     double next_length = 0;  // s, a good length for the next step
     bool inexact = false;    // the paths have an error beyond rounding
     bool changes = false;    // a contact changes at the path's end

@@ -256,7 +256,7 @@ inline void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candida
       // A string has one event for both of its bodies.
       const auto key = [i](const ExactEvent& e) {
         const Entity body = e.kind == ExactEvent::Kind::string ? e.partner : i;
-        return std::pair(std::min(body, e.partner), std::max(body, e.partner));
+        return std::pair(min(body, e.partner), max(body, e.partner));
       };
       if (key(best) < key(candidate)) return;
     }

@@ -21,7 +21,7 @@ constexpr size_t events_of_step = 2;  // from one step to the next
 /// Finds the events due within the time that so many events took before, or within a longer one.
 void EventPrefetch::find_due(double now) {
   const auto earlier = [](const auto& p, const auto& q) { return p.time < q.time; };
-  if (!due_.empty()) reach_ = (now - from_) * static_cast<double>(far_ahead) / static_cast<double>(events_);
+  if (!due_.empty()) reach_ = (now - from_) * double(far_ahead) / double(events_);
   from_ = now;
   events_ = 0;
   next_ = 0;

@@ -21,7 +21,7 @@ class EventQueue {
   using Due = Tournament<Before>::Due;
 
   explicit EventQueue(const ExactBodies& bodies)
-      : bodies_(bodies), queue_(static_cast<uint32_t>(bodies.body.size()), Before{this}) {}
+      : bodies_(bodies), queue_(uint32_t(bodies.body.size()), Before{this}) {}
 
   Entity first() const { return queue_.first(); }
   double first_time() const { return queue_.first_time(); }  // s; infinite: there is none
@@ -34,7 +34,7 @@ class EventQueue {
   /// Registers a change of body i's event. leave_time: when it leaves its region (s). Nothing after the duration is
   /// scheduled.
   void schedule(Entity i, double leave_time) {
-    const double next = std::min(bodies_.body[i].event.time.hi, leave_time);
+    const double next = min(bodies_.body[i].event.time.hi, leave_time);
     queue_.update(i, next <= bodies_.options.duration ? next : never);
   }
   void remove(Entity i) { queue_.update(i, never); }
@@ -62,9 +62,9 @@ inline bool EventQueue::before(Entity i, Entity j) const {
   if (p.kind != q.kind) return p.kind < q.kind;
   // A string has one event for both of its bodies. They come in the order of strings.
   if (p.kind == ExactEvent::Kind::string && p.partner != q.partner) return p.partner < q.partner;
-  const Entity pa = std::min(i, p.partner), qa = std::min(j, q.partner);
+  const Entity pa = min(i, p.partner), qa = min(j, q.partner);
   if (pa != qa) return pa < qa;
-  return std::max(i, p.partner) < std::max(j, q.partner);
+  return max(i, p.partner) < max(j, q.partner);
 }
 
 }  // namespace carom

@@ -25,7 +25,7 @@ double sum_of_speeds(const Vec3& v) {
 /// most `bending` (m/s^2). It takes nothing nearer than it bends the straight path from the relative velocity.
 bool stay_apart(const RelativeMotion& m, double sizes, double bending, double time) {
   const double speed2 = m.w.squaredNorm();
-  const double nearest = speed2 > 0 ? std::clamp(-m.d.dot(m.w) / speed2, 0.0, time) : 0;
+  const double nearest = speed2 > 0 ? clamp(-m.d.dot(m.w) / speed2, 0.0, time) : 0;
   const double bend = 0.5 * time * time * bending;
   return (m.d + nearest * m.w).norm() > (1 + exact_tolerance::near_miss) * (sizes + bend);
 }
@@ -34,8 +34,8 @@ bool stay_apart(const RelativeMotion& m, double sizes, double bending, double ti
 
 Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, double until) const {
   const World& world = bodies_.world;
-  const Entity a = std::min(i, j);
-  const Entity b = std::max(i, j);
+  const Entity a = min(i, j);
+  const Entity b = max(i, j);
   const Flight& p = bodies_.flights[a];
   const Flight& q = bodies_.flights[b];
   const bool p_earlier = p.start < q.start;
@@ -57,13 +57,12 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
   const bool curved = p.curve != nullptr || q.curve != nullptr;
   const bool parabolas = p.is_parabola() && q.is_parabola();
   const bool step = is_member(bodies_.mode(a)) || is_member(bodies_.mode(b));
-  const double horizon =
-      (step || curved ? std::min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
+  const double horizon = (step || curved ? min(end_of(a), end_of(b)) : Instant{bodies_.options.duration, 0}) - base;
 
   // Most pairs end here: they are too far apart for the rest of the step, or until the time that matters.
   if (curved && !(horizon > 0)) return {never, 0};
   if (parabolas || !curved) {
-    const double time = std::min(horizon, until - base.hi);
+    const double time = min(horizon, until - base.hi);
     // Accelerations fade with drag, each in its own time.
     const bool alike = parabolas || p.fade == q.fade;
     const double bending = alike ? m.a.norm() : p.acceleration(tp).norm() + q.acceleration(tq).norm();
@@ -75,7 +74,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
   if (curved && !parabolas) [[unlikely]]
     return of_curves(a, p, b, q, m, feature);
   if (step) {
-    const double greatest = std::max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
+    const double greatest = max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
     m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
   }
 
@@ -101,8 +100,8 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
 /// Collision of two bodies of which at least one is on a curve.
 Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                                        uint8_t& feature) const {
-  const Instant base = std::max(p.start, q.start);
-  const double horizon = std::min(end_of(a), end_of(b)) - base;
+  const Instant base = max(p.start, q.start);
+  const double horizon = min(end_of(a), end_of(b)) - base;
   const double tp = base - p.start;
   const double tq = base - q.start;
 
@@ -111,7 +110,7 @@ Instant ExactCollisionTimes::of_curves(Entity a, const Flight& p, Entity b, cons
 
   // Searches piece by piece. One polynomial is accurate in each.
   for (double t = 0; t < horizon;) {
-    const double length = std::min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
+    const double length = min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
     const FeatureTime first = of_piece(a, p, tp + t, b, q, tq + t, length, speeds, left);
     if (first.time < never) {
       feature = first.feature;
@@ -158,10 +157,10 @@ Instant ExactCollisionTimes::of_string(Entity string) const {
   const Flight p = bodies_.flights[s.body];
   const Flight q = anchored ? Flight{p.start, s.anchor, Vec3::Zero(), Vec3::Zero()} : bodies_.flights[s.other];
 
-  const Instant base = std::max(p.start, q.start);
+  const Instant base = max(p.start, q.start);
   const double tp = base - p.start;
   const double tq = base - q.start;
-  const double horizon = std::min(end_of(s.body), anchored ? Instant{never, 0} : end_of(s.other)) - base;
+  const double horizon = min(end_of(s.body), anchored ? Instant{never, 0} : end_of(s.other)) - base;
   if (!(horizon > 0)) return {never, 0};
 
   // The motion of the second end relative to the first, at the later start.
@@ -179,7 +178,7 @@ Instant ExactCollisionTimes::of_string(Entity string) const {
 
   // Other paths are searched piece by piece.
   for (double t = 0; t < horizon;) {
-    const double length = std::min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
+    const double length = min({horizon - t, p.span_of_fade(tp + t), q.span_of_fade(tq + t)});
     const double first =
         taut_time(q.position(tq + t) - p.position(tp + t), relative_displacement(p, tp + t, q, tq + t, length), length,
                   s.length, m.speeds, m.just_separated && t == 0, length);
@@ -202,7 +201,7 @@ double ExactCollisionTimes::noise_in_contact(Entity i) const {
 Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& feature) const {
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
-  const Instant base = std::max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
+  const Instant base = max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
   const double since = base - f.start;
   const double horizon = end_of(i) - base;
   if (!(horizon > 0)) return {never, 0};

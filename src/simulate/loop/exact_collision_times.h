@@ -28,7 +28,7 @@ class ExactCollisionTimes {
                        double speeds, uint8_t left) const;
   /// The latest end of body i's flight.
   [[gnu::always_inline]] Instant end_of(Entity i) const {
-    return std::min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
+    return min(bodies_.flight_end(i), Instant{bodies_.options.duration, 0});
   }
   double noise_in_contact(Entity i) const;
 

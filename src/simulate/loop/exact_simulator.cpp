@@ -57,7 +57,7 @@ inline void ExactSimulator::predict_changed() {
   span<Entity> changed = flights_.take_changed();
   if (changed.size() > 2) [[unlikely]] {
     std::ranges::sort(changed);
-    changed = changed.first(static_cast<size_t>(std::unique(changed.begin(), changed.end()) - changed.begin()));
+    changed = changed.first(size_t(std::unique(changed.begin(), changed.end()) - changed.begin()));
   }
 
   for (const Entity i : changed) {
@@ -129,7 +129,7 @@ void ExactSimulator::advance_to(double time) {
   crossings_.begin_advance();
   answers_.state_fresh = false;
 
-  const Instant until{std::min(time, bodies_.options.duration), 0};
+  const Instant until{min(time, bodies_.options.duration), 0};
   const auto before_now = [&] { return std::nextafter(bodies_.now.hi, 0); };
   uint32_t events = 0;
 
@@ -154,7 +154,7 @@ void ExactSimulator::advance_to(double time) {
 
       // A buffer is full. Stop just before the present instant, because more may happen at it.
       if (paths_.full() || (attends_ && crossings_.full()) || !bodies_.log.has_room(collisions_of_event)) {
-        time_ = std::max(time_, before_now());
+        time_ = max(time_, before_now());
         return crossings_.sort();
       }
     }
@@ -162,7 +162,7 @@ void ExactSimulator::advance_to(double time) {
 
   paths_.record_changes();
   crossings_.sort();
-  time_ = std::max(time, time_);
+  time_ = max(time, time_);
 
   // At the run's end, the last flights and the work along paths are booked.
   if (time_ < bodies_.options.duration) return;
@@ -201,7 +201,7 @@ uint32_t ExactSimulator::process(Entity i) {
       interrupt(event.partner);
       if (!strike_at_once(i, event)) {
         for (const Entity k : {i, event.partner}) flights_.end_step(k);
-        impacts_.of_two.collide_pair(std::min(i, event.partner), std::max(i, event.partner), event.feature);
+        impacts_.of_two.collide_pair(min(i, event.partner), max(i, event.partner), event.feature);
       }
       break;
 
@@ -227,7 +227,7 @@ uint32_t ExactSimulator::process(Entity i) {
 
     case Kind::step:
       if (is_member(bodies_.mode(i)) && event.time == bodies_.islands.of(i).end) {
-        weight = events_of_a_step * static_cast<uint32_t>(bodies_.islands.of(i).members.size());
+        weight = events_of_a_step * uint32_t(bodies_.islands.of(i).members.size());
         islands_.advance(i);
       } else {
         end_flight(i);
@@ -386,7 +386,7 @@ void ExactSimulator::end_by(const Crossings::Taken& taken) {
 
 /// Ends the run at `time` (s), the present instant or just before it.
 void ExactSimulator::end_run(double time, EndReason reason, uint32_t region) {
-  time = std::max({time, time_, paths_.latest()});
+  time = max({time, time_, paths_.latest()});
   bodies_.log.end({time, reason, region});
   paths_.end(time);
   book_last(time);

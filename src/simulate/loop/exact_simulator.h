@@ -32,7 +32,7 @@ class ExactSimulator final : public Simulator {
   span<const RegionCrossing> crossings() const override { return crossings_.recorded(); }
   const Tally& tally() const override { return bodies_.log.tally(); }
   vector<Extremes> extremes() const override {
-    return paths_.extremes().up_to(tally().end ? std::min(time_, tally().end->time) : time_);
+    return paths_.extremes().up_to(tally().end ? min(time_, tally().end->time) : time_);
   }
   Effort effort() const override;
   span<const ContactForce> contacts() override;

@@ -11,7 +11,7 @@
 namespace carom {
 
 /// Marks a pair that only sphere_contact_time can decide, because it touches or grazes.
-inline constexpr double unsure = -std::numeric_limits<double>::infinity();
+inline constexpr double unsure = -numeric_limits<double>::infinity();
 
 struct Meet {
   Instant time;  // hi may be `unsure`

@@ -21,18 +21,18 @@ Crossings::Crossings(const BodyPaths& bodies, function<Instant(Entity)> flight_e
     : bodies_(bodies), flight_end_(std::move(flight_end)), next_(bodies.body.size()) {
   if (!any()) return;
   const size_t n = bodies.body.size();
-  queue_.emplace(static_cast<uint32_t>(n), Before{this});
+  queue_.emplace(uint32_t(n), Before{this});
   const vector<WorldRegion>& regions = bodies.world.regions;
   standing_.assign(regions.size() * n, outside);
   for (uint32_t r = 0; r < regions.size(); ++r) {
     if (regions[r].on.empty()) continue;
-    std::fill_n(standing_.begin() + static_cast<ptrdiff_t>(r * n), n, apart);
+    std::fill_n(standing_.begin() + ptrdiff_t(r * n), n, apart);
     for (const Entity i : regions[r].on) standing(r, i) = outside;
   }
 }
 
 void Crossings::begin_advance() {
-  for (const RegionCrossing& crossing : recorded_) latest_ = std::max(latest_, crossing.time);
+  for (const RegionCrossing& crossing : recorded_) latest_ = max(latest_, crossing.time);
   recorded_.clear();
 }
 
@@ -66,13 +66,13 @@ void Crossings::find(Entity i, uint32_t region, const Instant& from) {
   namespace tol = exact_tolerance;
   const WorldRegion& where = bodies_.world.regions[region];
   const Flight f = bodies_.flights[i];
-  const Instant end = std::min(flight_end_(i), Instant{bodies_.options.duration, 0});
+  const Instant end = min(flight_end_(i), Instant{bodies_.options.duration, 0});
   const double horizon = end - f.start;
   const double margin =
       tol::position_rounding * (f.x.cwiseAbs().sum() + where.position.cwiseAbs().sum() + where.volume.half.maxCoeff());
 
   // Follows the flight in spans for which one polynomial is accurate, or at once to its end.
-  double t = std::max(from - f.start, 0.0);
+  double t = max(from - f.start, 0.0);
   while (t < horizon) {
     optional<CrossingTime> found;
     double start = 0;
@@ -81,7 +81,7 @@ void Crossings::find(Entity i, uint32_t region, const Instant& from) {
       found = next_crossing(where, CenterPath::along(f.x, f.v, f.a, horizon), t, standing(region, i) == inside, margin);
     } else {
       start = t;
-      length = std::min(f.span_of_fade(t), horizon - t);
+      length = min(f.span_of_fade(t), horizon - t);
       found = next_crossing(where, CenterPath::along(f.position(t), f.displacement_from(t, length), length), 0,
                             standing(region, i) == inside, margin);
     }
@@ -112,7 +112,7 @@ Crossings::Taken Crossings::take(Entity i) {
   next_.write(i).pop_back();
   Standing& now = standing(next.region, i);
   now = now == inside ? outside : inside;
-  const RegionCrossing crossing{std::max(next.at.hi, latest_), next.region, i, now == inside};
+  const RegionCrossing crossing{max(next.at.hi, latest_), next.region, i, now == inside};
   recorded_.push_back(crossing);
   find(i, next.region, next.sure);
   schedule(i);

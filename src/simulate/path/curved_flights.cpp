@@ -41,7 +41,7 @@ PolynomialPath::Point point(const ClosedMotion::Point& of) {
 double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const {
   const World& world = bodies_.world;
   const double rate = force_rate(world, i, x, v);
-  const double fall = std::sqrt(world.radius[i] / std::max(bodies_.force_at(i, x, v).norm(), 0x1p-900));
+  const double fall = std::sqrt(world.radius[i] / max(bodies_.force_at(i, x, v).norm(), 0x1p-900));
   return rate > 0 ? tol::first_step / rate : tol::first_step * fall;
 }
 
@@ -63,8 +63,8 @@ double CurvedFlights::longest_step(double reach, const Vec3& v, const Vec3& a) c
   const double now = bodies_.now.hi;
   const double within_reach = step_within(reach, v.norm(), a.norm());
   const double longest =
-      std::min(bodies_.options.step, std::max(2 * (bodies_.options.duration - now), tol::clock_rounding * now));
-  return within_reach > 0 ? std::min(within_reach, longest) : longest;
+      min(bodies_.options.step, max(2 * (bodies_.options.duration - now), tol::clock_rounding * now));
+  return within_reach > 0 ? min(within_reach, longest) : longest;
 }
 
 /// Interpolates the velocity at the step's start, middle and end. Positions differ by less than their rounding in a
@@ -85,16 +85,15 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
   const DoubleDouble since = seconds(closed.start, now);
   const ClosedMotion::Point start = motion.at(since);
   const double radius = bodies_.world.radius[i];
-  const double room =
-      tol::closed_place * std::max({radius, x.cwiseAbs().maxCoeff(), start.place.cwiseAbs().maxCoeff()});
+  const double room = tol::closed_place * max({radius, x.cwiseAbs().maxCoeff(), start.place.cwiseAbs().maxCoeff()});
 
   // Outputs and impacts start from the motion itself. Polynomials only serve to find the times of impacts.
-  const double speed = std::max({tol::closed_speed * start.velocity.norm(), room * motion.rate(start), 0x1p-900});
+  const double speed = max({tol::closed_speed * start.velocity.norm(), room * motion.rate(start), 0x1p-900});
 
   // The longest step that is allowed, or the one that the last error suggests.
-  double h = std::min(longest_step(force_reach(bodies_.world, i, x), start.velocity, start.acceleration),
-                      motion.longest_step(start, room));
-  if (next_[i] > 0) h = std::min(h, next_[i]);
+  double h = min(longest_step(force_reach(bodies_.world, i, x), start.velocity, start.acceleration),
+                 motion.longest_step(start, room));
+  if (next_[i] > 0) h = min(h, next_[i]);
   for (;;) {
     check_clock(i, h);
     const Instant next = now + h;
@@ -106,9 +105,9 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
     // times the whole step.
     const Vec3 quarter = motion.at(since + DoubleDouble{0.25 * h, 0}).velocity;
     const double off = (start.velocity + path.change_at(0.25 * h) - quarter).norm();
-    const double error = std::max(off / speed, 0.4816 * h * off / room);
+    const double error = max(off / speed, 0.4816 * h * off / room);
     const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
-    next_.write(i) = h * std::clamp(0.9 / std::max(eighth_root, 0x1p-10), 0.2, 4.0);
+    next_.write(i) = h * clamp(0.9 / max(eighth_root, 0x1p-10), 0.2, 4.0);
 
     if (error <= 1) {
       closed.next = next;
@@ -136,8 +135,8 @@ bool CurvedFlights::is_implicit(Entity i, double length, double damping) const {
 
 void CurvedFlights::note_method(Entity i, bool implicit) {
   const uint8_t before = method_[i];
-  const int explicit_steps = before == implicit_method ? 0 : std::min(before + 1, int{tol::many_explicit_steps});
-  method_.write(i) = implicit ? implicit_method : static_cast<uint8_t>(explicit_steps);
+  const int explicit_steps = before == implicit_method ? 0 : min(before + 1, int{tol::many_explicit_steps});
+  method_.write(i) = implicit ? implicit_method : uint8_t(explicit_steps);
 }
 
 namespace {
@@ -176,25 +175,25 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
 
   // The allowed error of a position: a share of the radius, or of a smaller distance in which forces change. It is
   // never below the rounding of positions.
-  const double width = std::min(radius, reach);
+  const double width = min(radius, reach);
   const double left = left_of_speed(world, i, now, x, v);
-  const double place = std::max(share * left * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
+  const double place = max(share * left * width, tol::position_rounding * x.cwiseAbs().maxCoeff());
 
   // The allowed error of a velocity: a share of itself, of the speed gained over a width, or of that at which drag
   // balances forces. It is never below the speed of a swing as wide as a position's error or rounding, because forces
   // that balance are rounding.
-  const double swing = std::max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
-  const double gained = std::min(std::sqrt(a.norm() * width), a.norm() / std::max(damping, 0x1p-900));
+  const double swing = max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
+  const double gained = min(std::sqrt(a.norm() * width), a.norm() / max(damping, 0x1p-900));
 
   // Across a spring that is nearly at its anchor the slope is unbounded. Damping is not a swing.
-  const double swings = std::min(std::sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
-  const double fine = std::max(share * left, tol::velocity_rounding);
-  const double speed = std::max({fine * v.norm(), fine * gained, left * swing * swings, 0x1p-900});
+  const double swings = min(std::sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
+  const double fine = max(share * left, tol::velocity_rounding);
+  const double speed = max({fine * v.norm(), fine * gained, left * swing * swings, 0x1p-900});
 
   // The first length to try, and its method.
   double h = next_[i] > 0 ? next_[i] : first_length(i, x, v);
   bool implicit = is_implicit(i, h, damping);
-  h = std::min(h, longest);
+  h = min(h, longest);
   for (;;) {
     check_clock(i, h);
 
@@ -236,7 +235,7 @@ double CurvedFlights::step_length() const {
   if (!(now.hi + step > now.hi))
     throw SimulationError(
         fmt::format("at t = {} s steps of {} s no longer advance the clock: use a longer simulate.step", now.hi, step));
-  auto steps = static_cast<double>(whole_below(now.hi / step));
+  auto steps = double(whole_below(now.hi / step));
   while (!(now < Instant{steps * step, 0})) ++steps;
   const double next = steps * step;
   return Instant{next < duration || !(now.hi < duration) ? next : duration, 0} - now;

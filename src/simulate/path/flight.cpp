@@ -22,7 +22,7 @@ PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
   terms[1] = (0.5 * length * length) * acceleration(t);
   // In the second case the acceleration has decayed.
   if (is_straight() || !(fade * length < 1)) return terms;
-  for (size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / static_cast<double>(k + 1)) * terms[k - 1];
+  for (size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / double(k + 1)) * terms[k - 1];
   return terms;
 }
 

@@ -24,7 +24,7 @@ struct Flight {
   const PolynomialPath* curve = nullptr;  // the path in that case, until the step's end
 
   // NaN: it equals no other value, not even itself.
-  static constexpr double curved = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double curved = numeric_limits<double>::quiet_NaN();
 
   // Straight except for a constant acceleration.
   bool is_straight() const { return fade == 0; }
@@ -57,7 +57,7 @@ struct Flight {
   double span_of_fade(double t) const {
     using namespace exact_tolerance;
     const bool straight = is_straight() || fade * t >= faded;
-    return curve != nullptr || straight ? std::numeric_limits<double>::infinity() : series_fade / fade;
+    return curve != nullptr || straight ? numeric_limits<double>::infinity() : series_fade / fade;
   }
 
  private:

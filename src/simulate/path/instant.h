@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "numerics/compensated.h"
+#include "std.h"
 
 namespace carom {
 
@@ -13,7 +14,7 @@ struct Instant {
   double hi = 0, lo = 0;  // s, hi + lo
 
   /// The last double that is not after it (s). A double is after the instant if it is greater than this.
-  double floor() const { return lo < 0 ? std::nextafter(hi, -std::numeric_limits<double>::infinity()) : hi; }
+  double floor() const { return lo < 0 ? std::nextafter(hi, -numeric_limits<double>::infinity()) : hi; }
 
   friend bool operator==(const Instant&, const Instant&) = default;
   friend bool operator<(const Instant& a, const Instant& b) { return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo); }

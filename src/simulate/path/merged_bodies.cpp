@@ -44,7 +44,7 @@ AppliedAcceleration MergedBodies::applied(Entity i, double time) const {
 double MergedBodies::next_switch(Entity i, double time) const {
   if (parts_.empty() || parts_[i].empty()) return carom::next_switch(world(), i, time);
   double next = never;
-  for (const Entity part : parts_[i]) next = std::min(next, carom::next_switch(world(), part, time));
+  for (const Entity part : parts_[i]) next = min(next, carom::next_switch(world(), part, time));
   return next;
 }
 

@@ -21,12 +21,12 @@ using Coefficients = vector<double>;
 
 Coefficients slope_of(const Coefficients& of) {
   Coefficients slope;
-  for (size_t k = 1; k < of.size(); ++k) slope.push_back(static_cast<double>(k) * of[k]);
+  for (size_t k = 1; k < of.size(); ++k) slope.push_back(double(k) * of[k]);
   return slope;
 }
 
 void add_product(const Coefficients& p, const Coefficients& q, Coefficients& sum) {
-  sum.resize(std::max(sum.size(), p.size() + q.size() - 1));
+  sum.resize(max(sum.size(), p.size() + q.size() - 1));
   for (size_t i = 0; i < p.size(); ++i)
     for (size_t j = 0; j < q.size(); ++j) sum[i + j] += p[i] * q[j];
 }
@@ -47,9 +47,9 @@ struct Part {
     const array<Vec3, 3> beyond = {more.at(t), length * more.slope(t), length * length * more.terms[2]};
     array<Coefficients, 3> v;
     for (int axis = 0; axis < 3; ++axis) {
-      auto& of = v[static_cast<size_t>(axis)];
+      auto& of = v[size_t(axis)];
       for (size_t k = 0; k < terms.size(); ++k)
-        of.push_back(static_cast<double>(k + 1) * terms[k][axis] / length + (k < 3 ? beyond[k][axis] : 0));
+        of.push_back(double(k + 1) * terms[k][axis] / length + (k < 3 ? beyond[k][axis] : 0));
     }
     return v;
   }
@@ -57,9 +57,9 @@ struct Part {
 
 /// The polynomial in s that is zero where the quantity turns.
 Coefficients turning(Quantity quantity, const array<Coefficients, 3>& v) {
-  const auto axis = static_cast<size_t>(quantity);
+  const auto axis = size_t(quantity);
   if (is_place(quantity)) return v[axis];
-  if (quantity <= Quantity::vz) return slope_of(v[axis - static_cast<size_t>(Quantity::vx)]);
+  if (quantity <= Quantity::vz) return slope_of(v[axis - size_t(Quantity::vx)]);
   Coefficients power;
   for (const Coefficients& of : v) add_product(of, slope_of(of), power);
   return power;
@@ -69,7 +69,7 @@ Coefficients turning(Quantity quantity, const array<Coefficients, 3>& v) {
 template <typename Take>
 void turns_of_parabola(const Flight& f, Quantity quantity, double from, double to, const Take& take) {
   if (quantity >= Quantity::vx && quantity <= Quantity::vz) return;
-  const int axis = is_place(quantity) ? static_cast<int>(quantity) : 0;
+  const int axis = is_place(quantity) ? int(quantity) : 0;
   const double slope = is_place(quantity) ? f.v[axis] : f.v.dot(f.a);
   const double bend = is_place(quantity) ? f.a[axis] : f.a.squaredNorm();
   const double t = -slope / bend;
@@ -83,7 +83,7 @@ void turns_of(const Part& part, Quantity quantity, double from, double to, const
   // A position follows the flight's own velocity.
   const Part path{part.flight, is_place(quantity) ? VelocityBeyond{} : part.more};
   for (double t = from; t < to;) {
-    const double length = std::min(to - t, part.flight.span_of_fade(t));
+    const double length = min(to - t, part.flight.span_of_fade(t));
     if (!(t + length > t)) return;
     for (const double s : roots_in_unit(turning(quantity, path.velocities(t, length)))) take(t + s * length);
     t += length;
@@ -93,9 +93,9 @@ void turns_of(const Part& part, Quantity quantity, double from, double to, const
 
 /// The rate of change of the quantity, or for energies one of the same sign.
 double slope_of(Quantity quantity, const PathPoint& p) {
-  const int axis = static_cast<int>(quantity);
+  const int axis = int(quantity);
   if (is_place(quantity)) return p.way[axis];
-  if (quantity <= Quantity::vz) return p.a[axis - static_cast<int>(Quantity::vx)];
+  if (quantity <= Quantity::vz) return p.a[axis - int(Quantity::vx)];
   return p.v.dot(p.a);
 }
 
@@ -135,12 +135,12 @@ double PathExtremes::rounding_of(Quantity quantity, const PathPoint& at, double 
 /// Adds the errors of a flight from `from` to `to`. Of a flight on a curve it is that of a step, but where the scene
 /// chose the step.
 void PathExtremes::add_errors(Entity i, const Flight& f, const PathPoint& from, const PathPoint& to, Seen& seen) const {
-  const double place = std::max(from.x.cwiseAbs().maxCoeff(), to.x.cwiseAbs().maxCoeff());
-  const double speed = std::max(from.v.norm(), to.v.norm()), radius = bodies_.world.radius[i];
+  const double place = max(from.x.cwiseAbs().maxCoeff(), to.x.cwiseAbs().maxCoeff());
+  const double speed = max(from.v.norm(), to.v.norm()), radius = bodies_.world.radius[i];
   seen.place += exact_tolerance::position_rounding * place;
   seen.speed += exact_tolerance::velocity_rounding * speed;
   if (f.curve == nullptr || (bodies_.options.integrator != Integrator::dop853 && bodies_.flies_on_curve(i))) return;
-  const double share = std::max(bodies_.options.step_error, exact_tolerance::step_error);
+  const double share = max(bodies_.options.step_error, exact_tolerance::step_error);
   seen.place += share * radius;
   seen.speed += share * (speed + std::sqrt(bodies_.applied[i].norm() * radius));
 }
@@ -151,7 +151,7 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Ext
   const Seen before = seen_[i];
   if (before.any && until < before.until) return before;
   const Flight f = bodies_.flights[i];
-  const Instant since = std::max(before.until, f.start);
+  const Instant since = max(before.until, f.start);
   if (until < since || !is_in_world(bodies_.mode(i))) return before;
 
   // The velocity by the method, up to this instant.

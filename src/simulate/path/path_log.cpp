@@ -18,7 +18,7 @@ constexpr size_t path_buffer = 4096;
 
 /// The first double that is not before an instant.
 double first_double(const Instant& at) {
-  return at.lo > 0 ? std::nextafter(at.hi, std::numeric_limits<double>::infinity()) : at.hi;
+  return at.lo > 0 ? std::nextafter(at.hi, numeric_limits<double>::infinity()) : at.hi;
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void PathLog::record_changes() {
   std::ranges::sort(changed_);
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   if (changed_.empty()) return;
-  latest_ = std::max(std::min(first_double(std::max(changed_at_, delayed_)), end_), latest_);
+  latest_ = max(min(first_double(max(changed_at_, delayed_)), end_), latest_);
   if (bodies_.options.record_paths)
     for (const Entity i : changed_)
       if (!goes_on(i)) pieces_.push_back(piece_of(i, latest_));
@@ -93,7 +93,7 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
     const bool free = !in_lasting_contact(bodies_.mode(i));
     const bool verlet = bodies_.options.integrator == Integrator::verlet;
     if (free && verlet) piece.law = PathLaw::verlet;
-    auto curve = std::make_shared<PolynomialPath>(*f.curve);
+    auto curve = make_shared<PolynomialPath>(*f.curve);
     if (!free || verlet) curve->ahead = Vec3::Zero();
     piece.curve = std::move(curve);
   }

@@ -52,11 +52,11 @@ class ListPool {
     uint32_t* at = data(list);
 #ifdef __SSE2__
     // A block may end beyond the list. An entry there is found only if it is not in the list.
-    const __m128i wanted = _mm_set1_epi32(static_cast<int>(entry));
+    const __m128i wanted = _mm_set1_epi32(int(entry));
     for (;; at += granule)
       if (const int there = _mm_movemask_ps(
               _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), wanted))))
-        return at + std::countr_zero(static_cast<unsigned>(there));
+        return at + std::countr_zero(unsigned(there));
 #else
     while (*at != entry) ++at;
     return at;
@@ -111,14 +111,14 @@ class ListPool {
     if (left_ < granules) {
       // The rest of the page.
       for (; left_ > 0; ++next_, --left_) put_away(1, next_);
-      next_ = static_cast<uint32_t>(page_.size() << page_bits);
-      left_ = std::max((granules + page - 1) / page, std::min<size_t>(page_.size(), 16)) * page;
+      next_ = uint32_t(page_.size() << page_bits);
+      left_ = max((granules + page - 1) / page, min<size_t>(page_.size(), 16)) * page;
       memory_.emplace_back(LargePages<uint32_t>().allocate(entries_in(left_)));
       for (size_t k = 0; k < left_ / page; ++k) page_.push_back(memory_.back().get() + k * entries_in(page));
     }
 
     list.at = next_;
-    next_ += static_cast<uint32_t>(granules);
+    next_ += uint32_t(granules);
     left_ -= granules;
   }
 

@@ -53,7 +53,7 @@ void Neighbours::start(const vector<Vec3>& x) {
   for (Entity i = 0; i < n; ++i) {
     const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
-    lists_[i].level = static_cast<int16_t>(level);
+    lists_[i].level = int16_t(level);
     const auto known = std::ranges::find_if(expected, [&](const auto& e) { return e.first == level; });
     known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
   }
@@ -73,7 +73,7 @@ void Neighbours::start(const vector<Vec3>& x) {
 
 Region Neighbours::around(const Vec3& x, int level) const {
   const Vec3 p = ((x - origin_) / unit_).cwiseMax(-farthest).cwiseMin(farthest);
-  return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), half_of_level(level)};
+  return {float(p.x()), float(p.y()), float(p.z()), half_of_level(level)};
 }
 
 /// The room that rounding needs at x (m), in m.
@@ -84,15 +84,15 @@ double Neighbours::rounding_at(Entity i, const Vec3& x) const {
 /// The level that gives body i at x (m) this room (m), and at least that for rounding.
 int Neighbours::level_for(Entity i, const Vec3& x, double room) const {
   const Vec3 outside = ((x - origin_).cwiseAbs() - Vec3::Constant(farthest * unit_)).cwiseMax(0);
-  const double room_of_all = std::max({room, least_room * world_.radius[i], rounding_at(i, x)}) + 2 * outside.norm();
-  return std::clamp(level_of_half((room_of_all + world_.radius[i]) / unit_), -400, widest_level);
+  const double room_of_all = max({room, least_room * world_.radius[i], rounding_at(i, x)}) + 2 * outside.norm();
+  return clamp(level_of_half((room_of_all + world_.radius[i]) / unit_), -400, widest_level);
 }
 
 /// Stores in found_ the bodies that may touch body i in this region.
 void Neighbours::find(Entity i, const Region& region) {
   const size_t candidates = grid_.near(region, found_);
   found_count_ = select_touching(region, region_.data(), found_.data(), candidates, true, found_.data());
-  const auto end = found_.begin() + static_cast<ptrdiff_t>(found_count_), own = std::find(found_.begin(), end, i);
+  const auto end = found_.begin() + ptrdiff_t(found_count_), own = std::find(found_.begin(), end, i);
   if (own != end) *own = found_[--found_count_];
 }
 
@@ -106,12 +106,12 @@ void Neighbours::tidy() {
 /// Writes the bodies that were found, and the surfaces near body i, to its list.
 void Neighbours::write(Entity i) {
   NeighbourList& list = lists_[i];
-  surfaces_.find(center(i), unit_ * static_cast<double>(region_[i].half), found_surfaces_);
+  surfaces_.find(center(i), unit_ * double(region_[i].half), found_surfaces_);
   pool_.reserve(list, found_count_ + found_surfaces_.size());
   uint32_t* const to = pool_.data(list);
   std::copy_n(found_surfaces_.begin(), found_surfaces_.size(), std::copy_n(found_.begin(), found_count_, to));
-  list.surfaces = static_cast<uint32_t>(found_surfaces_.size()) & 0xFFFFFF;
-  list.count = static_cast<uint32_t>(found_count_ + found_surfaces_.size());
+  list.surfaces = uint32_t(found_surfaces_.size()) & 0xFFFFFF;
+  list.count = uint32_t(found_count_ + found_surfaces_.size());
 }
 
 /// Adds i to body j's list.
@@ -140,26 +140,26 @@ void Neighbours::settle(Entity i, const Region& region, int level) {
   const span<const Entity> known = bodies(i);
 
   // Bodies that are no longer near lose body i from their lists.
-  gone_.resize(std::max(gone_.size(), known.size() + select_slack));
+  gone_.resize(max(gone_.size(), known.size() + select_slack));
   const size_t gone = select_touching(region, region_.data(), known.data(), known.size(), false, gone_.data());
   for (size_t k = 0; k < gone; ++k) prefetch(pool_.data(lists_[gone_[k]]));
   for (size_t k = 0; k < gone; ++k) drop(gone_[k], i);
 
   // Bodies that were not near before receive it.
-  came_.resize(std::max(came_.size(), found_count_ + select_slack));
+  came_.resize(max(came_.size(), found_count_ + select_slack));
   came_count_ = select_touching(old, region_.data(), found_.data(), found_count_, false, came_.data());
   for (size_t k = 0; k < came_count_; ++k) prefetch(pool_.data(lists_[came_[k]]) + lists_[came_[k]].count);
   for (size_t k = 0; k < came_count_; ++k) add(came_[k], i);
 
   region_[i] = region;
   grid_.move(i, old, lists_[i].level, region_, level);
-  lists_[i].level = static_cast<int16_t>(level);
+  lists_[i].level = int16_t(level);
   write(i);
 }
 
 /// Takes the widest region from this level down that does not contain too many bodies.
 void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int level) {
-  const double enough = std::max(least_room * world_.radius[i], rounding_at(i, x));
+  const double enough = max(least_room * world_.radius[i], rounding_at(i, x));
   const double far = ahead.norm();
 
   for (;; level -= wider) {
@@ -171,7 +171,7 @@ void Neighbours::settle_down(Entity i, const Vec3& x, const Vec3& ahead, int lev
     }
 
     // The region lies ahead, as far as its room allows.
-    const double share = far > 0 && room > 0 ? std::min(1.0, 0.9 * room / far) : 0;
+    const double share = far > 0 && room > 0 ? min(1.0, 0.9 * room / far) : 0;
     const Region region = around(x + share * ahead, level);
     find(i, region);
     if (found_count_ <= 2 * many_neighbours || least) return settle(i, region, level);

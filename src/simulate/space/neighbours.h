@@ -83,7 +83,7 @@ class Neighbours {
       if constexpr (Archive::reads) {
         pool_.reserve(list, all.size());
         std::ranges::copy(all, pool_.data(list));
-        list.count = static_cast<uint32_t>(all.size());
+        list.count = uint32_t(all.size());
         list.surfaces = surfaces & 0xFFFFFF;
         list.left = left & 0xFF;
       }

@@ -23,7 +23,7 @@ inline bool may_touch(const Region& a, const Region& b) {
 
 /// A half width less the greatest rounding of single precision.
 inline double sure(float half) {
-  return static_cast<double>(half) * (1 - 0x1p-19);
+  return double(half) * (1 - 0x1p-19);
 }
 
 inline constexpr int widest_level = 512;  // unbounded
@@ -32,8 +32,8 @@ inline constexpr int widest_level = 512;  // unbounded
 inline float half_of_level(int level) {
   constexpr float step[] = {1, 1.1892071F, 1.4142136F, 1.6817929F};
   const int octave = level >> 2;
-  if (octave > 127) return std::numeric_limits<float>::infinity();
-  return step[level & 3] * std::bit_cast<float>(static_cast<uint32_t>(octave + 127) << 23);
+  if (octave > 127) return numeric_limits<float>::infinity();
+  return step[level & 3] * std::bit_cast<float>(uint32_t(octave + 127) << 23);
 }
 
 /// The narrowest level with a sure half width of at least this.

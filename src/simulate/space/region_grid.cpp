@@ -20,15 +20,15 @@ constexpr size_t regions_a_cell = 3;
 
 // Far beyond 2^60 cells everything shares the outermost cell. Searches are slower there, but correct.
 RegionGrid::Cell RegionGrid::cell_of(float x, double per_width) {
-  const double c = static_cast<double>(x) * per_width;
+  const double c = double(x) * per_width;
   if (!(std::abs(c) < 0x1p60)) return c < 0 ? -(Cell{1} << 60) : Cell{1} << 60;
   const auto whole = static_cast<Cell>(c);
-  return whole - (static_cast<double>(whole) > c);
+  return whole - (double(whole) > c);
 }
 
 int64_t RegionGrid::wrap(Cell c, Cell low, int64_t cells) {
   const Cell at = c - low;
-  if (static_cast<uint64_t>(at) < static_cast<uint64_t>(cells)) return at;
+  if (uint64_t(at) < uint64_t(cells)) return at;
   const Cell rest = at % cells;
   return rest < 0 ? rest + cells : rest;
 }
@@ -43,7 +43,7 @@ RegionGrid::Octave& RegionGrid::octave_of(int level) {
   for (Octave& grid : octaves_)
     if (grid.number == number) return grid;
   const float half = half_of_level(4 * number);
-  octaves_.push_back({number, half, 0.5 / static_cast<double>(half), {}, {}, {}, 0, 0});
+  octaves_.push_back({number, half, 0.5 / double(half), {}, {}, {}, 0, 0});
   shape(octaves_.back(), 1);
   return octaves_.back();
 }
@@ -57,30 +57,30 @@ void RegionGrid::shape(Octave& grid, size_t regions) {
 
   for (int k = 0; k < 3; ++k) {
     grid.low[k] = cell_of(low[k], grid.per_width);
-    extent[k] = static_cast<double>(cell_of(high[k], grid.per_width)) - static_cast<double>(grid.low[k]) + 1;
+    extent[k] = double(cell_of(high[k], grid.per_width)) - double(grid.low[k]) + 1;
   }
 
   // The shortest axis comes first. The others share what it leaves.
   std::sort(axis, axis + 3, [&](int k, int l) { return extent[k] < extent[l]; });
-  auto left = static_cast<double>(regions / regions_a_cell + 1);
+  auto left = double(regions / regions_a_cell + 1);
   bool all = true;
   for (int k = 0; k < 3; ++k) {
     const double most = k == 0 ? std::cbrt(left) : k == 1 ? std::sqrt(left) : left;
-    const double cells = std::min(extent[axis[k]], std::max(1.0, std::floor(most)));
+    const double cells = min(extent[axis[k]], max(1.0, std::floor(most)));
     all = all && cells == extent[axis[k]];
-    grid.cells[axis[k]] = static_cast<int64_t>(cells);
+    grid.cells[axis[k]] = int64_t(cells);
     left /= cells;
   }
 
-  grid.buckets.assign(static_cast<size_t>(grid.cells[0] * grid.cells[1] * grid.cells[2]), {});
-  grid.most = all ? ~size_t{0} : 2 * std::max(regions, 2 * regions_a_cell);
+  grid.buckets.assign(size_t(grid.cells[0] * grid.cells[1] * grid.cells[2]), {});
+  grid.most = all ? ~size_t{0} : 2 * max(regions, 2 * regions_a_cell);
 }
 
 inline RegionGrid::Bucket& RegionGrid::bucket_of(Octave& grid, const Region& region) {
   const int64_t x = wrap(cell_of(region.x, grid.per_width), grid.low[0], grid.cells[0]);
   const int64_t y = wrap(cell_of(region.y, grid.per_width), grid.low[1], grid.cells[1]);
   const int64_t z = wrap(cell_of(region.z, grid.per_width), grid.low[2], grid.cells[2]);
-  return grid.buckets[static_cast<size_t>((z * grid.cells[1] + y) * grid.cells[0] + x)];
+  return grid.buckets[size_t((z * grid.cells[1] + y) * grid.cells[0] + x)];
 }
 
 void RegionGrid::link(Bucket& first, Entity i) {
@@ -88,13 +88,13 @@ void RegionGrid::link(Bucket& first, Entity i) {
   while (bucket->count == Bucket::room) {
     if (bucket->next == 0) {
       const bool in_overflow = bucket != &first;
-      const size_t own = in_overflow ? static_cast<size_t>(bucket - overflow_.data()) : 0;
+      const size_t own = in_overflow ? size_t(bucket - overflow_.data()) : 0;
 
       // A new overflow bucket, or one that is free again.
       uint32_t number;
       if (free_.empty()) {
         overflow_.emplace_back();
-        number = static_cast<uint32_t>(overflow_.size());
+        number = uint32_t(overflow_.size());
       } else {
         number = free_.back();
         free_.pop_back();
@@ -193,7 +193,7 @@ void RegionGrid::take(const Bucket* from, const Bucket* end, size_t most, size_t
       continue;
 
     // The rest of a crowded cell is in overflow buckets.
-    count = static_cast<size_t>(to - found.data());
+    count = size_t(to - found.data());
     for (const Bucket* bucket = from; bucket->next != 0;) {
       bucket = &overflow_[bucket->next - 1];
       const size_t room = count + bucket->count + most + slack;
@@ -203,7 +203,7 @@ void RegionGrid::take(const Bucket* from, const Bucket* end, size_t most, size_t
     }
     to = found.data() + count;
   }
-  count = static_cast<size_t>(to - found.data());
+  count = size_t(to - found.data());
 }
 
 size_t RegionGrid::near(const Region& region, vector<Entity>& found) const {
@@ -225,12 +225,12 @@ size_t RegionGrid::near(const Region& region, vector<Entity>& found) const {
     }
 
     // Room for all that may be there.
-    const auto most = static_cast<size_t>(cells[0] * cells[1] * cells[2]) * Bucket::room;
+    const auto most = size_t(cells[0] * cells[1] * cells[2]) * Bucket::room;
     const size_t room = count + most + slack;
     if (found.size() < room) found.resize(2 * room);
 
     // The cells of a row are contiguous, except for those beyond the grid's last one.
-    const int64_t first = std::min(cells[0], grid.cells[0] - from[0]);
+    const int64_t first = min(cells[0], grid.cells[0] - from[0]);
     const int64_t rest = cells[0] - first;
     const auto next = [&](int64_t at, int k) { return at + 1 == grid.cells[k] ? 0 : at + 1; };
 

@@ -28,9 +28,9 @@ Vec3 half_of(const Wall& wall) {
 }  // namespace
 
 size_t SurfacesNear::Hash::operator()(const Cell& cell) const {
-  auto hash = static_cast<uint64_t>(cell.size);
+  auto hash = uint64_t(cell.size);
   for (const int64_t c : {cell.x, cell.y, cell.z}) {
-    hash = (hash ^ static_cast<uint64_t>(c)) * 0x9E3779B97F4A7C15;
+    hash = (hash ^ uint64_t(c)) * 0x9E3779B97F4A7C15;
     hash ^= hash >> 29;
   }
   return hash;
@@ -56,8 +56,8 @@ void SurfacesNear::sweep(Entity e) {
     places.high = places.high.cwiseMax(x);
     if (!world_.is_plane(e)) return;
     HalfSpace& plane = planes_[e - world_.body_count()];
-    plane.offset = std::max(plane.offset, plane.normal.dot(x));
-    plane.rounding = std::max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
+    plane.offset = max(plane.offset, plane.normal.dot(x));
+    plane.rounding = max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
   };
 
   const vector<MotionLeg>& legs = world_.legs(e);
@@ -119,8 +119,7 @@ void SurfacesNear::find(const Vec3& center, double reach, vector<Entity>& found)
     auto known = cells_.find(cell);
     if (known == cells_.end()) {
       if (cells_.size() >= most_cells) cells_.clear();
-      const Vec3 middle = width * Vec3(static_cast<double>(cell.x) + 0.5, static_cast<double>(cell.y) + 0.5,
-                                       static_cast<double>(cell.z) + 0.5);
+      const Vec3 middle = width * Vec3(double(cell.x) + 0.5, double(cell.y) + 0.5, double(cell.z) + 0.5);
       vector<Entity> in_reach;
       // Half of the cell's diagonal.
       take_ever_near(all_, middle, (0.5 + 0.8661) * width, in_reach);
