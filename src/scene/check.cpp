@@ -53,8 +53,14 @@ class Checker : ValueChecker {
       return;
     }
     if (!kind.defaults.empty()) mark_cancelled(node, kind);
-    for (size_t i = 0; i < node.keys.size(); ++i) entry(node.keys[i], node.items[i], node, kind, what, partial);
+
+    // What the defaults cancel is known before the things that may need it, wherever the file has them.
+    for (const bool defaults_now : {true, false})
+      for (size_t i = 0; i < node.keys.size(); ++i)
+        if ((node.keys[i].text == "defaults") == defaults_now)
+          entry(node.keys[i], node.items[i], node, kind, what, partial);
     if (partial) return;
+
     const Node* defaults = defaults_for(root_, kind);
     needed(node, defaults, kind, what, where);
     needed_beside(View(&node, kind, where, defaults), node, what);

@@ -69,7 +69,8 @@ View::Found View::search(const Field& field) const {
     if (const Node* node = layer->find(field.key)) return {node->cancels ? nullptr : node, false};
     for (const string_view rival : rivals(field)) {
       const Node* node = layer->find(rival);
-      if (node != nullptr && !node->cancels) return {nullptr, true};
+      // A rival of the defaults that the own map hides replaces nothing.
+      if (node != nullptr && !node->cancels && (layer == own_ || given(rival) != nullptr)) return {nullptr, true};
     }
   }
   return {nullptr, false};

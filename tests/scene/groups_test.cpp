@@ -214,6 +214,28 @@ TEST(Groups, NeedNoBallWhereDefaultsHaveAllOfIt) {
   EXPECT_NE(errors_of(start + gas).find("group `gas` has no `ball`"), string::npos);
 }
 
+TEST(Groups, AreArrangedInTheirBoxWhateverTheDefaultsArrange) {
+  const string groups = "groups: {g: {count: 2, ball: {mass: 1, radius: 0.1}, in: {min: [1, 1, 1], max: [4, 4, 4]}}}\n";
+  const string members = "defaults: {group: {members: [{position: [1, 1, 1]}, {position: [3, 1, 1]}]}}\n";
+  const Scene scene = load_text(start + members + groups);
+
+  EXPECT_LE(greatest_excess(scene, Vec3(1, 1, 1), Vec3(4, 4, 4)), 0);
+  EXPECT_LT(greatest_overlap(scene), 0);
+  EXPECT_EQ(scene.initial.position, load_text(start + groups).initial.position);
+}
+
+TEST(Groups, AMassThatTheDefaultsCancelIsMissingWhereverTheyStand) {
+  const string balls = "balls: {a: {radius: 0.1, position: [0, 0, 0]}}\n";
+  const string defaults = "defaults: {ball: {mass: none}}\n";
+  const string message = "ball `a` has no `mass` and no `density`";
+
+  for (const string& text : {start + defaults + balls, start + balls + defaults}) {
+    const Marked errors = marked_errors(text);
+    ASSERT_EQ(errors.size(), 1u) << text;
+    EXPECT_EQ(errors[0], std::pair(string("a"), message));
+  }
+}
+
 TEST(Groups, ABallThatComesFromTheDefaultsIsWholeToo) {
   const string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
   EXPECT_EQ(in_parts(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups)),
