@@ -1,6 +1,6 @@
 #pragma once
-// Marks of tests that the build with sanitizers leaves out. There a test without a mark has a minute
-// (tests/CMakeLists.txt).
+// Marks of tests that the build with sanitizers leaves out. There a test without a mark has two minutes: see
+// tests/CMakeLists.txt.
 
 #include <gtest/gtest.h>
 
@@ -19,18 +19,19 @@ inline constexpr bool with_sanitizers = __has_feature(address_sanitizer);
 inline constexpr bool with_sanitizers = false;
 #endif
 
-/// Whether the running test is left out. `words`: parts of the names of the parameters that are slow; none: all are.
-/// With SLOW_TOO in the environment none is left out.
+/// Whether the running test is left out. `words`: parts of the names or values of the parameters that are slow; none:
+/// all are. With SLOW_TOO in the environment none is left out.
 inline bool is_left_out(std::initializer_list<string_view> words) {
   if (!with_sanitizers || std::getenv("SLOW_TOO") != nullptr) return false;
-  const string_view name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-  const auto is_in_name = [&](string_view word) { return name.find(word) != string_view::npos; };
-  return words.size() == 0 || std::ranges::any_of(words, is_in_name);
+  const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
+  const string names = string(test.name()) + " " + (test.value_param() == nullptr ? "" : test.value_param());
+  const auto is_in_names = [&](string_view word) { return names.find(word) != string::npos; };
+  return words.size() == 0 || std::ranges::any_of(words, is_in_names);
 }
 
 }  // namespace carom
 
-/// The first line of a test that takes more than some 20 s with sanitizers. In brackets: words of the slow parameters.
+/// The first line of a test that takes more than some 30 s with sanitizers. In brackets: words of the slow parameters.
 #define SLOW_WITH_SANITIZERS(...) \
   if (carom::is_left_out({__VA_ARGS__})) GTEST_SKIP() << "slow with sanitizers"
 

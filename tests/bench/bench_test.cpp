@@ -111,6 +111,7 @@ TEST(Bench, TheSteppedEngineFindsNoErrorOfTheExactOneInCurvedContact) {
 // In islands all candidates are the same code: agreement among them is no evidence, and an error of their steps is in
 // the reference too. By the closed form of the conical pendulum.
 TEST(Bench, IslandsHaveNoIndependentCheckButAnErrorOfTheirSteps) {
+  SLOW_WITH_SANITIZERS();
   Scene scene;
   scene.world.gravity = Vec3(0, -9.75, 0);
   scene.world.mass = {1};

@@ -5,6 +5,7 @@
 
 #include "run/run_testing.h"
 #include "scene/output_kinds.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -43,6 +44,7 @@ int simulators_of(Scene scene, const vector<string>& outputs) {
 class EverySceneRun : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
+  SLOW_WITH_SANITIZERS("funnel");
   Scene scene = scene_named(GetParam());
   const vector<string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
   EXPECT_EQ(simulators_of(scene, outputs), 1);

@@ -408,6 +408,7 @@ Problem shaft(int seed) {
 }
 
 TEST(CrowdMotion, OfBodiesThatJustFitBetweenWallsMakesHardlyAnyEnergy) {
+  SLOW_WITH_SANITIZERS();
   uint64_t steps = 0;
 
   for (int seed = 1; seed <= 8; ++seed) {

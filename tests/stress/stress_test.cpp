@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RandomScenes, ::testing::Range(0, groups),
                          [](const auto& group) { return string(family_names()[static_cast<size_t>(group.param)]); });
 
 TEST(RareCoincidences, HoldEveryInvariant) {
-  SLOW_WITH_SANITIZERS("gas", "forces", "heaps");
+  SLOW_WITH_SANITIZERS();
   // Seeds of rare coincidences:
   // - gaps and impacts that are simultaneous within rounding
   // - boxes that come apart at an edge as one of them is struck
