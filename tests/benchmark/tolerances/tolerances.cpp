@@ -190,6 +190,6 @@ int compare_all(const string& program) {
 
 int main(int count, char** arguments) {
   if (count == 1) return carom::compare_all(arguments[0]);
-  carom::run_all(string(arguments[1]) == "exact");
+  carom::run_all(std::string(arguments[1]) == "exact");
   return 0;
 }

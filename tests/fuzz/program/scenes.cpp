@@ -138,9 +138,9 @@ int run(uint64_t scenes, uint64_t first) {
 }  // namespace carom::fuzz
 
 int main(int count, char** arguments) {
-  const string word = count > 1 ? arguments[1] : "";
+  const carom::string word = count > 1 ? arguments[1] : "";
   if (word == "write" && count == 4) return carom::fuzz::write(arguments[2], std::strtoull(arguments[3], nullptr, 10));
-  if (word == "hash") return carom::fuzz::hash(span(arguments, static_cast<size_t>(count)).subspan(2));
+  if (word == "hash") return carom::fuzz::hash(std::span(arguments, static_cast<size_t>(count)).subspan(2));
   const auto number = [&](int k, uint64_t otherwise) {
     return count > k ? std::strtoull(arguments[k], nullptr, 10) : otherwise;
   };

@@ -19,13 +19,13 @@ int main(int count, char** arguments) {
   for (const Target& target : targets()) {
     std::filesystem::create_directories(folder / target.name);
     int number = 0;
-    for (const string& seed : target.seeds())
+    for (const std::string& seed : target.seeds())
       std::ofstream(folder / target.name / ("seed" + std::to_string(number++)), std::ios::binary) << seed;
-    std::ofstream(folder / (string(target.name) + ".longest")) << target.longest << "\n";
+    std::ofstream(folder / (std::string(target.name) + ".longest")) << target.longest << "\n";
   }
 
   std::ofstream dictionary(folder / "words.dict");
-  for (const string& word : words()) {
+  for (const std::string& word : words()) {
     dictionary << '"';
     for (const unsigned char c : word) {
       char code[8];
