@@ -79,7 +79,7 @@ TEST(SweepFolder, RemovesTheRunsOfAnotherSweep) {
   const SweepPlace place;
   finish(place, two_masses);
   const Sweep other = place.sweep("grid: {balls.red.mass: [5]}\n");
-  SweepFolder(place / "out", SweepFolder::Use::alone, other, place.read("base.yaml"), "", [] {});
+  const SweepFolder folder(place / "out", SweepFolder::Use::alone, other, place.read("base.yaml"), "", [] {});
   EXPECT_FALSE(std::filesystem::exists(place / "out/runs/r0001"));
   EXPECT_EQ(place.read("out/sweep.yaml"), other.resolved(stored_base));
 }
@@ -88,7 +88,7 @@ TEST(SweepFolder, KeepsTheRunsOfTheSameSweep) {
   const SweepPlace place;
   finish(place, two_masses);
   const Sweep sweep = place.sweep("title: Another\n" + two_masses);
-  SweepFolder(place / "out", SweepFolder::Use::part, sweep, place.read("base.yaml"), "", [] {});
+  const SweepFolder folder(place / "out", SweepFolder::Use::part, sweep, place.read("base.yaml"), "", [] {});
   EXPECT_TRUE(std::filesystem::exists(place / "out/runs/r0002/summary.csv"));
 }
 
