@@ -26,7 +26,7 @@ inline bool is_left_out(std::initializer_list<string_view> words) {
   const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
   const string names = string(test.name()) + " " + (test.value_param() == nullptr ? "" : test.value_param());
   const auto is_in_names = [&](string_view word) { return names.find(word) != string::npos; };
-  return words.size() == 0 || std::ranges::any_of(words, is_in_names);
+  return words.size() == 0 || any_of(words, is_in_names);
 }
 
 }  // namespace carom

@@ -8,9 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "bench/reference.h"
 #include "bench/shifted.h"
 #include "bench/timing.h"
@@ -95,7 +92,7 @@ class Bench {
     if (!(duration > 0)) throw SimulationError("the scene lasts 0 s: there is nothing to measure");
 
     const double most = min(0.25 * duration, 64 * default_step(world_, scene_.initial));
-    const double longest = options_.longest.value_or(std::exp2(std::floor(std::log2(most))));
+    const double longest = options_.longest.value_or(std::exp2(floor(std::log2(most))));
     const double shortest = options_.shortest.value_or(std::ldexp(longest, -halvings));
     for (double step = longest; step >= shortest * (1 - 1e-9); step *= 0.5) steps_.push_back(step);
   }
@@ -232,7 +229,7 @@ class Bench {
     const SimulationMethod& method = row.method;
     const Simulate settings = settings_of(scene_.simulate, method);
     if (bare_run(world_, scene_.initial, settings, method.steps, watch_.stop_check) != row.hash)
-      throw std::runtime_error(fmt::format("the result differs from run to run of {}", full_name_of(method)));
+      throw runtime_error(fmt::format("the result differs from run to run of {}", full_name_of(method)));
     return cpu_time() - start;
   }
 

@@ -52,7 +52,7 @@ struct BenchResult {
   double cpu_s = 0;  // of the whole bench
 };
 
-/// Throws SimulationError if there is no reference, and std::runtime_error if a repeated run has a different result.
+/// Throws SimulationError if there is no reference, and runtime_error if a repeated run has a different result.
 BenchResult run_bench(const Scene& scene, const BenchOptions& options, const BenchWatch& watch);
 
 }  // namespace carom

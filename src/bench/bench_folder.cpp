@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <deque>
-#include <set>
 
 #include "bench/shifted.h"
 #include "export/gnuplot.h"
@@ -120,7 +118,7 @@ PlotSeries quality_series(const QualityCurve& curve, string name, size_t style, 
   for (size_t k = 0; k + 1 < curve.rows.size(); ++k) {
     const QualityRow& row = curve.rows[k];
     const MeanError& of = row.*error;
-    if (!std::isfinite(of.value)) continue;
+    if (!isfinite(of.value)) continue;
     const double size = std::abs(of.value);
     series.points.push_back({row.cpu_s, size, string(name_of(row.level)), size - of.spread, size + of.spread});
   }
@@ -233,7 +231,7 @@ Plot work_precision_plot(const Scene& scene, const BenchResult& result) {
   plot.levels = levels_of(result);
 
   // Integrators of which runs have the same bits as the exact engine's. They share its point.
-  std::set<string> exact;
+  set<string> exact;
   for (const BenchRow& row : result.rows) {
     if (!row.failure.empty() || (!result.chaotic && !row.errors)) continue;
     if (has_exact_bits(row, result.rows.front())) {

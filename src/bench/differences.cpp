@@ -2,10 +2,6 @@
 // A fixed tolerance of time would not suit both slow and fast collisions.
 #include "bench/differences.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "numerics/compensated.h"
 #include "physics/body_now.h"
 #include "physics/force.h"
@@ -48,11 +44,11 @@ class Matching {
 
   bool same_side(Entity body, double time) const {
     const auto& between = between_[body];
-    return std::ranges::none_of(between, [&](const Interval& i) { return i.from <= time && time <= i.to; });
+    return none_of(between, [&](const Interval& i) { return i.from <= time && time <= i.to; });
   }
 
  private:
-  static std::pair<Entity, Entity> key(const Impact& i) { return {i.a, i.b}; }
+  static pair<Entity, Entity> key(const Impact& i) { return {i.a, i.b}; }
 
   /// In s: the time in which a and b pass through each other at this collision's speed; of a string, that in which its
   /// body moves by its radius.

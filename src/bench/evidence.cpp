@@ -5,10 +5,6 @@
 // ch. 5 and 7: code and solution verification.
 #include "bench/evidence.h"
 
-#include <algorithm>
-#include <limits>
-#include <utility>
-
 #include "physics/world.h"
 #include "std.h"
 
@@ -25,8 +21,6 @@ constexpr double converging = 0.6;
 
 /// In units of a position's last digit: 2^-7 of the extent. A run with a larger error is no evidence.
 constexpr double largest_error = 0x1p46;
-
-constexpr double infinite = numeric_limits<double>::infinity();
 
 /// Whether steps are as short as forces require, or there are none.
 bool resolves_forces(const SimulationMethod& method) {
@@ -54,14 +48,14 @@ void Evidence::add_halved(const SimulationMethod& method, RecordedRun run) {
   }
 
   Finding finding{method, std::move(run), {}};
-  double change = infinite;
+  double change = infinity;
   if (last_) {
     finding.error = larger(between(last_->run, finding.run), rounding_);
     // A position is rounded in each step, often in the same direction.
     change = max(finding.error.position, until_ / *method.steps.length * last_digit_);
-    const bool falls = change_ < infinite && change <= converging * change_;
+    const bool falls = change_ < infinity && change <= converging * change_;
     // Two successive runs may have the same error by accident, but three hardly do.
-    finding.error.position = change_ < infinite ? max(change, 0.5 * change_) : change;
+    finding.error.position = change_ < infinity ? max(change, 0.5 * change_) : change;
     const bool converges = falls || change <= rounding_room * rounding_.position;
     if (converges && finding.error.position <= largest_error * last_digit_) keep(finding);
   }
@@ -108,7 +102,7 @@ Verdict Evidence::verdict(bool settled) const {
   verdict.error = reference.error;
 
   // How far each of the others is from it.
-  Differences least{infinite, infinite, infinite, 0, 0};
+  Differences least{infinity, infinity, infinity, 0, 0};
   for (size_t i = 0; i < n; ++i) {
     if (i == verdict.reference) continue;
     const Differences& d = apart[verdict.reference * n + i];

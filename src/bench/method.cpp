@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "std.h"

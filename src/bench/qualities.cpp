@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "bench/method.h"
@@ -44,7 +42,7 @@ RunMean mean_over(const QualityRuns& runs, const Of& of) {
   const auto count = double(runs.size());
   RunMean mean;
   for (const QualityRun& run : runs) mean.value += of(run) / count;
-  for (const QualityRun& run : runs) mean.variance += std::pow(of(run) - mean.value, 2) / (count * (count - 1));
+  for (const QualityRun& run : runs) mean.variance += pow(of(run) - mean.value, 2) / (count * (count - 1));
   return mean;
 }
 
@@ -53,7 +51,7 @@ double height_of_heap(const World& world, const State& state) {
   const Vec3 up = -world.gravity.normalized();
   double mass = 0;
   double moment = 0;
-  double lowest = numeric_limits<double>::infinity();
+  double lowest = infinity;
 
   for (Entity i = 0; i < world.body_count(); ++i) {
     const double of_body = state.mass.empty() ? world.mass[i] : state.mass[i];
@@ -70,7 +68,7 @@ double height_of_heap(const World& world, const State& state) {
 /// The same start with other velocities at random: by a hundredth of the speed of falling by a radius, or a thousandth
 /// of the greatest speed. Rounding would grow so slowly that runs have much of their impacts in common.
 State disturbed(const World& world, State state, int number) {
-  double size = 0.01 * std::sqrt(2 * world.gravity.norm() * *std::ranges::min_element(world.radius));
+  double size = 0.01 * sqrt(2 * world.gravity.norm() * *ranges::min_element(world.radius));
   for (const Vec3& v : state.velocity) size = max(size, 0.001 * v.norm());
   std::mt19937_64 draw{uint64_t(number)};
   for (Vec3& v : state.velocity)
@@ -183,17 +181,17 @@ class QualityBench {
       const auto taken = [k](const QualityRun& run) { return run.taken[k]; };
       const RunMean here = mean_over(runs, taken);
       const RunMean there = mean_over(reference, taken);
-      squares += std::pow(here.value - there.value, 2) / samples;
+      squares += pow(here.value - there.value, 2) / samples;
       variance += (here.variance + there.variance) / samples;
     }
     const double all = std::abs(mean_over(reference, [](const QualityRun& run) { return run.taken.back(); }).value);
-    row.dissipated = {std::sqrt(squares) / all, std::sqrt(variance) / all};
+    row.dissipated = {sqrt(squares) / all, sqrt(variance) / all};
 
     if (!(scene_.world.gravity.norm() > 0)) return row;
     const auto height = [](const QualityRun& run) { return run.height; };
     const RunMean here = mean_over(runs, height);
     const RunMean there = mean_over(reference, height);
-    row.height = {here.value / there.value - 1, std::sqrt(here.variance + there.variance) / there.value};
+    row.height = {here.value / there.value - 1, sqrt(here.variance + there.variance) / there.value};
     return row;
   }
 

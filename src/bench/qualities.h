@@ -4,7 +4,6 @@
 // Motion in a crowd is chaotic: its bodies' places mean nothing after some hundredths of a second. What is compared are
 // the energy that is lost and the height of the heap. Both are means over runs with slightly different
 // velocities at the start, with the standard errors of these means.
-#include <limits>
 
 #include "bench/bench_options.h"
 #include "physics/contact_quality.h"

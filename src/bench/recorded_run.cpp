@@ -2,7 +2,6 @@
 // Recording costs time, so timed runs use bare_run().
 #include "bench/recorded_run.h"
 
-#include <algorithm>
 #include <tuple>
 
 #include "bench/state_hash.h"
@@ -41,9 +40,8 @@ RecordedRun record_run(const World& world, const State& initial, const Simulate&
   run.inexact_islands = simulator->effort().inexact_steps > 0 || run.tally.stepped_contact > 0;
   run.hash = hash_of(simulator->state(), run.tally);
 
-  std::ranges::stable_sort(run.impacts, [](const Impact& p, const Impact& q) {
-    return std::tie(p.a, p.b, p.time) < std::tie(q.a, q.b, q.time);
-  });
+  ranges::stable_sort(run.impacts,
+                      [](const Impact& p, const Impact& q) { return tie(p.a, p.b, p.time) < tie(q.a, q.b, q.time); });
   run.cpu_s = cpu_time() - start;
   return run;
 }

@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "bench/shifted.h"
 #include "bench/timing.h"
 #include "physics/force.h"
@@ -137,7 +134,7 @@ class Making {
               max(reference_.rounding, (other.states[k].position[i] - reference_.run.states[k].position[i]).norm());
       if (reference_.rounding <= grown * first) until = reference_.instants[k];
     }
-    reference_.chaotic = reference_.rounding > astray * *std::ranges::max_element(world_.radius);
+    reference_.chaotic = reference_.rounding > astray * *ranges::max_element(world_.radius);
     reference_.horizon = reference_.chaotic ? until : scene_.simulate.duration;
   }
 

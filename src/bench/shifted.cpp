@@ -2,9 +2,6 @@
 // extent. All digits of their positions then change.
 #include "bench/shifted.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/places.h"
 #include "physics/world.h"
 #include "std.h"
@@ -33,8 +30,8 @@ double rounding_of(const World& world, const State& initial) {
 }
 
 Vec3 shift(double extent, int number) {
-  const auto fraction = [&](double root) { return number * root - std::floor(number * root); };
-  return extent * Vec3(0.5 + fraction(std::sqrt(2.0)), 0.5 + fraction(std::sqrt(3.0)), 0.5 + fraction(std::sqrt(5.0)));
+  const auto fraction = [&](double root) { return number * root - floor(number * root); };
+  return extent * Vec3(0.5 + fraction(sqrt(2.0)), 0.5 + fraction(sqrt(3.0)), 0.5 + fraction(sqrt(5.0)));
 }
 
 }  // namespace carom

@@ -2,8 +2,6 @@
 // The spread is that of one more member, so that the mean's own uncertainty is included.
 #include "bench/statistics.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "physics/world.h"
@@ -27,7 +25,7 @@ Statistics statistics_of(const World& world, const RecordedRun& run, double dura
 
   for (size_t k = from; k < run.states.size(); ++k)
     for (const Vec3& v : run.states[k].velocity) statistics.speeds.push_back(v.norm());
-  std::ranges::sort(statistics.speeds);
+  ranges::sort(statistics.speeds);
   statistics.mean_speed = std::accumulate(statistics.speeds.begin(), statistics.speeds.end(), 0.0) /
                           max(1.0, double(statistics.speeds.size()));
   return statistics;
@@ -52,7 +50,7 @@ double deviation_from(const vector<double>& sample, double value) {
   const double mean = std::accumulate(sample.begin(), sample.end(), 0.0) / n;
   double squares = 0;
   for (const double x : sample) squares += (x - mean) * (x - mean);
-  const double spread = std::sqrt(squares / (n - 1) * (1 + 1 / n));
+  const double spread = sqrt(squares / (n - 1) * (1 + 1 / n));
   return spread > 1e-9 * std::abs(mean) ? (value - mean) / spread : 0;
 }
 
@@ -89,11 +87,11 @@ Ensemble::Ensemble(vector<Statistics> members) : members_(std::move(members)) {
     vector<double> others;
     for (size_t k = 0; k < members_.size(); ++k)
       if (k != m) others.insert(others.end(), members_[k].speeds.begin(), members_[k].speeds.end());
-    std::ranges::sort(others);
+    ranges::sort(others);
     distances_.push_back(distance(members_[m].speeds, others));
     speeds_.insert(speeds_.end(), members_[m].speeds.begin(), members_[m].speeds.end());
   }
-  std::ranges::sort(speeds_);
+  ranges::sort(speeds_);
 }
 
 Deviation Ensemble::deviation(const Statistics& run) const {

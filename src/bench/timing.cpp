@@ -2,7 +2,6 @@
 // The number of executions in a turn is doubled or more until the turn lasts long enough for the clock.
 #include "bench/timing.h"
 
-#include <algorithm>
 #include <ctime>
 
 #include "std.h"
@@ -63,7 +62,7 @@ vector<double> time_in_turns(const vector<TimedTask>& tasks, const function<void
 
   vector<double> medians;
   for (vector<double>& all : times) {
-    std::ranges::sort(all);
+    ranges::sort(all);
     medians.push_back(0.5 * (all[(all.size() - 1) / 2] + all[all.size() / 2]));
   }
   return medians;

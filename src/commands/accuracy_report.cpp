@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "commands/interrupt.h"
 #include "commands/text.h"
 #include "physics/world.h"
@@ -20,7 +18,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 Json finite_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
+  return isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 string integrator_text(const Assessment& assessment) {
@@ -38,7 +36,7 @@ string contact_text(const Assessment& assessment) {
 string chaos_text(const Assessment& assessment) {
   const Growth& growth = assessment.growth;
   if (growth.chaotic) return fmt::format("a disturbance grows e-fold in {}", quantity(growth.lyapunov_time, "s"));
-  if (!std::isfinite(growth.large_at))
+  if (!isfinite(growth.large_at))
     return fmt::format("none: a disturbance of 1e-12 grows by a factor of {:.3g}", growth.factor);
   return fmt::format("no steady growth, but a disturbance of 1e-12 changes the motion before {}",
                      quantity(growth.large_at, "s"));
@@ -53,7 +51,7 @@ string order_text(const Assessment& assessment) {
 string right_text(const Assessment& assessment) {
   const string to = quantity(assessment.tolerance, "m");
   string text = fmt::format("positions are right to {} until ", to);
-  text += std::isfinite(assessment.right_until) ? quantity(assessment.right_until, "s") : "the end";
+  text += isfinite(assessment.right_until) ? quantity(assessment.right_until, "s") : "the end";
   if (assessment.order.value_or(0) > assessment.tolerance)
     text += fmt::format(", under carom's law for impacts of one instant; another one changes them by {}",
                         quantity(*assessment.order, "m"));

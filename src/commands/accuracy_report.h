@@ -1,7 +1,6 @@
 #pragma once
 // The sources of a run's error, as text and as JSON.
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "run/engine.h"
 #include "std.h"
@@ -11,8 +10,8 @@ namespace carom {
 struct Scene;
 
 struct AccuracyReport {
-  vector<std::pair<string, string>> lines;  // label, text
-  nlohmann::ordered_json json;              // an object; null: the scene has no motion
+  vector<pair<string, string>> lines;  // label, text
+  nlohmann::ordered_json json;         // an object; null: the scene has no motion
 };
 
 /// Runs the scene several times for it. Throws Interrupted.

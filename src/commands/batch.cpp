@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <utility>
 
 #include "commands/interrupt.h"
 #include "commands/outcome_list.h"
@@ -55,7 +53,7 @@ class Batch {
   int go() {
     const auto start = std::chrono::steady_clock::now();
     const auto to_do = size_t(
-        std::ranges::count_if(scenes_, [&](const PlannedScene& planned) { return !is_up_to_date(planned, options_); }));
+        ranges::count_if(scenes_, [&](const PlannedScene& planned) { return !is_up_to_date(planned, options_); }));
     const size_t jobs = min<size_t>(options_.execution.jobs.value_or(1), to_do);
 
     const int code = jobs <= 1 ? in_turn() : together(jobs, to_do);
@@ -179,7 +177,7 @@ class Batch::Together {
   void settle_in_order() {
     for (; settled_ < outcomes_.size() && outcomes_[settled_]; ++settled_) {
       progress_.clear();
-      batch_.list_.add(*std::exchange(outcomes_[settled_], SceneOutcome{}));
+      batch_.list_.add(*exchange(outcomes_[settled_], SceneOutcome{}));
     }
   }
 

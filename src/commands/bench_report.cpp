@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "bench/bench_folder.h"
 #include "commands/error_list.h"
 #include "commands/text.h"
@@ -20,11 +17,11 @@ namespace {
 using Cells = vector<string>;
 
 string digits(double value) {
-  return value == 0 ? "0" : std::isfinite(value) ? fmt::format("{:.3g}", value) : "";
+  return value == 0 ? "0" : isfinite(value) ? fmt::format("{:.3g}", value) : "";
 }
 
 bool is_confirmed(const BenchResult& result) {
-  return std::ranges::any_of(result.witnesses, [](const Witness& w) { return w.agrees; });
+  return any_of(result.witnesses, [](const Witness& w) { return w.agrees; });
 }
 
 string reference_text(const BenchResult& result) {
@@ -100,7 +97,7 @@ Cells cells_of(const BenchRow& row, bool chaotic) {
 
 /// "0.21 +- 0.05" %, or nothing.
 string percent_text(const MeanError& error) {
-  if (!std::isfinite(error.value)) return "";
+  if (!isfinite(error.value)) return "";
   return fmt::format("{:.2f} +- {:.2f}", 100 * error.value, 100 * error.spread);
 }
 

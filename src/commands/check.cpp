@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "commands/accuracy_report.h"
 #include "commands/foresight.h"
 #include "commands/interrupt.h"
@@ -63,7 +60,7 @@ string fixed_text(const World& world) {
 }
 
 string strings_text(const World& world) {
-  const auto rods = size_t(std::ranges::count_if(world.strings, [](const String& string) { return string.rod; }));
+  const auto rods = size_t(ranges::count_if(world.strings, [](const String& string) { return string.rod; }));
   const size_t strings = world.strings.size() - rods;
   if (rods == 0) return counted(strings, "string", "strings");
   return strings == 0 ? counted(rods, "rod", "rods")

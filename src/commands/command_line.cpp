@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 
 #include "commands/option_table.h"
 #include "std.h"
@@ -135,7 +134,7 @@ ParsedOptions parse_options(const Command& command, const vector<string>& words)
   refuse_single_dash(app, words);
 
   // Every word after "--" is an operand.
-  const auto mark = std::ranges::find(words, "--");
+  const auto mark = ranges::find(words, "--");
   try {
     // CLI11 reads from the back.
     app.parse(vector<string>(std::reverse_iterator(mark), words.rend()));

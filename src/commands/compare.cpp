@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
@@ -128,7 +127,7 @@ class CompareSession {
 
   /// The names of the measures that the scene of the first whole run defines.
   static vector<string> own_measures_of(const vector<ListedRun>& runs) {
-    const auto whole = std::ranges::find_if(runs, [](const ListedRun& run) { return run.done; });
+    const auto whole = ranges::find_if(runs, [](const ListedRun& run) { return run.done; });
     if (whole == runs.end()) return {};
     const Descriptor folder = open_folder(AT_FDCWD, whole->folder, true);
     const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : nullopt;
@@ -138,9 +137,9 @@ class CompareSession {
   /// Measures and charts must exist in the first whole run.
   static void check(const ComparisonPlan& plan, const vector<ListedRun>& runs) {
     check_charts(plan);
-    const auto whole = std::ranges::find_if(runs, [](const ListedRun& run) { return run.done; });
+    const auto whole = ranges::find_if(runs, [](const ListedRun& run) { return run.done; });
     const vector<Measure> measures = measures_of(plan);
-    const bool of_bodies = std::ranges::any_of(measures, [](const Measure& m) { return !m.column; });
+    const bool of_bodies = any_of(measures, [](const Measure& m) { return !m.column; });
     if (!of_bodies || whole == runs.end()) return;
     const Scene scene = load_run_scene(whole->folder);
     for (const Measure& measure : measures) parse_measure(measure.name, scene);
@@ -174,7 +173,7 @@ class CompareSession {
 
   int done(const ComparisonPlan& plan, const RunSet& differences) {
     const vector<ListedRun>& runs = differences.runs();
-    const auto failed = size_t(std::ranges::count_if(runs, [](const ListedRun& run) { return !run.done; }));
+    const auto failed = size_t(ranges::count_if(runs, [](const ListedRun& run) { return !run.done; }));
     vector<string> varied, measures;
     for (const Parameter& parameter : plan.parameters) varied.push_back(parameter.path);
     for (const Measure& measure : measures_of(plan)) measures.push_back(measure.name);

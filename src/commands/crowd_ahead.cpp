@@ -2,9 +2,6 @@
 // later.
 #include "commands/crowd_ahead.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "scene/scene.h"
@@ -63,10 +60,10 @@ CrowdAhead crowd_ahead(const Scene& scene, Engine engine) {
   }
   if (!(kept < 1)) return {};
 
-  const double fall = std::sqrt(2 * height / load);
-  const double smallest = *std::ranges::min_element(world.radius);
+  const double fall = sqrt(2 * height / load);
+  const double smallest = *ranges::min_element(world.radius);
   const ContactQuality& quality = quality_of(scene.simulate.contact.quality);
-  const double step = quality.longest_step * std::sqrt(2 * smallest / load);
+  const double step = quality.longest_step * sqrt(2 * smallest / load);
 
   CrowdAhead ahead;
   ahead.from = fall / (1 - kept);

@@ -58,7 +58,7 @@ string end_text(const RunDifference& difference) {
                                     : fmt::format("at most {} m apart: {}", exact(end.greatest), end.body);
   if (end.time_a != end.time_b)
     text += fmt::format("; the ends are at {} s and {} s", exact(end.time_a), exact(end.time_b));
-  for (const auto& [names, id] : {std::pair(&end.only_a, &difference.a.id), std::pair(&end.only_b, &difference.b.id)})
+  for (const auto& [names, id] : {pair(&end.only_a, &difference.a.id), pair(&end.only_b, &difference.b.id)})
     if (!names->empty()) text += fmt::format("; only in {}: {}", printable(*id), listed(*names, most_shown));
   return text;
 }

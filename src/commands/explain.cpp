@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "commands/report.h"
 #include "commands/text.h"
 #include "scene/absent_words.h"
@@ -34,7 +31,7 @@ string value_text(const Field& field) {
 }
 
 bool has_defaults(const FieldPlaces& row) {
-  return std::ranges::any_of(row.kinds, [](const Kind* kind) { return !kind->defaults.empty(); });
+  return any_of(row.kinds, [](const Kind* kind) { return !kind->defaults.empty(); });
 }
 
 // The keys of which one is needed; empty: none.
@@ -57,7 +54,7 @@ string needed_text(const FieldPlaces& row) {
 }
 
 /// A line for each key or kind with its meaning.
-string key_list(const vector<std::pair<string_view, string>>& rows) {
+string key_list(const vector<pair<string_view, string>>& rows) {
   constexpr size_t column = 20;
   const size_t width = terminal_width(STDOUT_FILENO);
   string text;
@@ -79,7 +76,7 @@ string facts_text(const Field& field, const Kind& kind) {
 }
 
 string keys_text(const Kind& kind) {
-  vector<std::pair<string_view, string>> rows;
+  vector<pair<string_view, string>> rows;
   for (const Field& field : kind.fields) rows.emplace_back(field.key, string(field.doc) + facts_text(field, kind));
   if (kind.also != nullptr) rows.emplace_back(kind.also->key, kind.also->doc);
   return key_list(rows);
@@ -132,8 +129,8 @@ Json word_json(const AbsentWord& word) {
 
 Json range_json(const Range& range) {
   Json out = Json::object();
-  if (std::isfinite(range.min)) out[range.above_min ? "above" : "from"] = number_json(range.min);
-  if (std::isfinite(range.max)) out[range.below_max ? "below" : "to"] = number_json(range.max);
+  if (isfinite(range.min)) out[range.above_min ? "above" : "from"] = number_json(range.min);
+  if (isfinite(range.max)) out[range.below_max ? "below" : "to"] = number_json(range.max);
   return out;
 }
 
@@ -177,7 +174,7 @@ Json kind_json(const Kind& kind) {
 string overview() {
   string text;
   for (const auto family : families()) {
-    vector<std::pair<string_view, string>> rows;
+    vector<pair<string_view, string>> rows;
     for (const Kind& kind : family) rows.emplace_back(kind.name, kind.doc);
     text += fmt::format("Kinds of maps in a {} file:\n", family.front().name) + key_list(rows) + "\n";
   }
@@ -186,7 +183,7 @@ string overview() {
 
 /// Whether every path of the row is below `defaults`.
 bool is_default_alone(const FieldPlaces& row) {
-  return std::ranges::all_of(row.paths, [](const string& path) { return path.starts_with("defaults."); });
+  return all_of(row.paths, [](const string& path) { return path.starts_with("defaults."); });
 }
 
 /// Several operands may be one term: `carom explain slow motion`.
@@ -225,7 +222,7 @@ int explain(const Options& options) {
     }
 
     // The kind comes first. A key that is called like its kind shows the kind's keys itself.
-    const bool shown = std::ranges::any_of(rows, [&](const FieldPlaces& row) { return row.field->held == kind; });
+    const bool shown = any_of(rows, [&](const FieldPlaces& row) { return row.field->held == kind; });
     if (kind != nullptr && !shown) {
       texts.push_back(kind_text(*kind, options));
       all.push_back(kind_json(*kind));

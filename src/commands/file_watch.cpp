@@ -29,8 +29,8 @@ FileWatch::Stamp FileWatch::stamp_of(const string& file) {
   return {uint64_t(info.st_ino), uint64_t(info.st_size), ns};
 }
 
-void FileWatch::follow(const std::set<string>& files) {
-  std::map<string, Stamp> stamps;
+void FileWatch::follow(const set<string>& files) {
+  map<string, Stamp> stamps;
   for (const string& file : files) {
     const auto known = stamps_.find(file);
     stamps[file] = known == stamps_.end() ? stamp_of(file) : known->second;
@@ -38,8 +38,8 @@ void FileWatch::follow(const std::set<string>& files) {
   stamps_ = std::move(stamps);
 }
 
-std::set<string> FileWatch::changed(const function<void()>& stop_check) {
-  std::set<string> changed, gone;
+set<string> FileWatch::changed(const function<void()>& stop_check) {
+  set<string> changed, gone;
   Clock::time_point last;
   while (true) {
     stop_check();

@@ -1,7 +1,5 @@
 #pragma once
 // Waits for changes of files, however an editor writes them: in place, or as another file that is then renamed.
-#include <map>
-#include <set>
 
 #include "std.h"
 
@@ -10,11 +8,11 @@ namespace carom {
 class FileWatch {
  public:
   /// Watches these files instead of those before. Changes since the last call count for files that stay.
-  void follow(const std::set<string>& files);
+  void follow(const set<string>& files);
 
   /// Waits until files have changed, appeared or disappeared, and all have then been left alone for a tenth of a
   /// second. Returns them. `stop_check`: called often, may throw.
-  std::set<string> changed(const function<void()>& stop_check);
+  set<string> changed(const function<void()>& stop_check);
 
  private:
   /// What changes whenever a file is written or replaced. All 0: there is no such file.
@@ -24,7 +22,7 @@ class FileWatch {
   };
   static Stamp stamp_of(const string& file);
 
-  std::map<string, Stamp> stamps_;  // by file
+  map<string, Stamp> stamps_;  // by file
 };
 
 }  // namespace carom

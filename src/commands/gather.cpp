@@ -5,9 +5,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
@@ -109,7 +107,7 @@ class GatherSession {
         continue;
       }
 
-      const auto has = std::ranges::find_if(whole, [&](const auto& runs) { return runs[number]; });
+      const auto has = ranges::find_if(whole, [&](const auto& runs) { return runs[number]; });
       statuses.push_back(bring(sweep.id(number), size_t(has - whole.begin())));
       if (statuses.back() == RunStatus::missing) missing.push_back(sweep.id(number));
       if (statuses.back() == RunStatus::failed) failed.push_back(sweep.id(number));
@@ -216,7 +214,7 @@ class GatherSession {
 
   const Options& options_;
   string folder_;
-  std::set<string> skipped_;  // ids of runs that are left out
+  set<string> skipped_;  // ids of runs that are left out
   string skipped_text_;
   size_t doubtful_ = 0;  // runs
 };

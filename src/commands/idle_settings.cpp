@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
 
 #include "commands/text.h"
@@ -25,7 +24,7 @@ const OutputKind* output_set(string_view path) {
   path.remove_prefix(outputs.size());
   const string_view name = path.substr(0, path.find('.'));
   const auto kinds = output_kinds();
-  const auto found = std::ranges::find_if(kinds, [&](const OutputKind& k) { return k.name == name; });
+  const auto found = ranges::find_if(kinds, [&](const OutputKind& k) { return k.name == name; });
   return found == kinds.end() ? nullptr : &*found;
 }
 
@@ -40,7 +39,7 @@ string written_text(const Scene& scene) {
 
 bool draws(const Output& output) {
   const auto kinds = output_kinds();
-  return std::ranges::any_of(kinds, [&](const OutputKind& k) { return k.draws && k.asked(output); });
+  return any_of(kinds, [&](const OutputKind& k) { return k.draws && k.asked(output); });
 }
 
 }  // namespace

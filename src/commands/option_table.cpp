@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "commands/text.h"
 #include "scene/output_kinds.h"
@@ -31,7 +28,7 @@ const string& single(const Words& words, string_view option) {
 template <typename Choice>
 Choice chosen(const Words& words, string_view option, span<const string_view> names) {
   const string& word = single(words, option);
-  const auto found = std::ranges::find(names, word);
+  const auto found = ranges::find(names, word);
   if (found == names.end()) {
     throw UsageError(fmt::format("{} takes {}, not {}{}", option, joined(names, ", "), in_backticks(word),
                                  did_you_mean(word, {names.begin(), names.end()})));
@@ -60,7 +57,7 @@ uint64_t whole(const Words& words, string_view option, uint64_t least, uint64_t 
 /// A positive number.
 double number(const string& word, string_view option) {
   const auto value = parsed<double>(word);
-  if (!value || !(*value > 0) || !std::isfinite(*value))
+  if (!value || !(*value > 0) || !isfinite(*value))
     throw UsageError(fmt::format("{} takes a number above 0, not {}", option, in_backticks(word)));
   return *value;
 }
@@ -68,7 +65,7 @@ double number(const string& word, string_view option) {
 /// A time of a run, in s.
 double time_of(const string& word, string_view option) {
   const auto value = parsed<double>(word);
-  if (!value || !(*value >= 0) || !std::isfinite(*value))
+  if (!value || !(*value >= 0) || !isfinite(*value))
     throw UsageError(fmt::format("{} takes a time in seconds, such as 1.25, not {}", option, in_backticks(word)));
   return *value;
 }
@@ -103,11 +100,11 @@ void read_only(Options& options, const Words& words) {
   vector<string> only;
   for (const string& name : split_lists(words)) {
     const auto& known = output_names();
-    if (std::ranges::find(known, name) == known.end()) {
+    if (!contains(known, name)) {
       throw UsageError(
           fmt::format("--only takes {}, not {}{}", joined(known, ", "), in_backticks(name), did_you_mean(name, known)));
     }
-    if (std::ranges::find(only, name) == only.end()) only.push_back(name);
+    if (!contains(only, name)) only.push_back(name);
   }
   options.only = std::move(only);
 }

@@ -1,7 +1,5 @@
 #pragma once
 // What a command is, and the options that it is given.
-#include <limits>
-#include <stdexcept>
 
 #include "bench/bench_options.h"
 #include "commands/terminal.h"
@@ -11,7 +9,7 @@
 namespace carom {
 
 /// The command line is wrong. The text is for the user.
-struct UsageError : std::runtime_error {
+struct UsageError : runtime_error {
   explicit UsageError(const string& text) : runtime_error(text), fault(text) {}
   /// The text is "fault: remedy".
   UsageError(const string& what, const string& what_to_do)

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <utility>
-
 #include "commands/report.h"
 #include "commands/text.h"
 #include "std.h"

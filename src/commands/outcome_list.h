@@ -1,6 +1,5 @@
 #pragma once
 // Prints the scenes of a command line: each as it ends, and at the end the document of --json or a line of counts.
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "commands/scene_outcome.h"
@@ -22,7 +21,7 @@ class OutcomeList {
 
   const Options& options_;
   nlohmann::ordered_json entries_ = nlohmann::ordered_json::array();
-  std::map<string, size_t> counts_;  // of scenes, by status
+  map<string, size_t> counts_;  // of scenes, by status
 };
 
 }  // namespace carom

@@ -7,9 +7,7 @@
 
 #include <chrono>
 #include <filesystem>
-#include <map>
 #include <new>
-#include <utility>
 
 #include "bench/bench_folder.h"
 #include "commands/error_list.h"
@@ -45,7 +43,7 @@ string folder_of(const Options& options, const string& name, const string& usual
 
 // Two runs in one folder would overwrite each other.
 void refuse_shared_folders(const vector<PlannedScene>& scenes) {
-  std::map<string, const PlannedScene*> owner;
+  map<string, const PlannedScene*> owner;
   for (const PlannedScene& scene : scenes) {
     const auto [found, is_new] = owner.emplace(canonical(scene.folder), &scene);
     if (is_new) continue;

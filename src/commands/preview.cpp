@@ -1,9 +1,6 @@
 // Tests the initial bodies against the camera's frustum. No picture is drawn, so check needs no renderer.
 #include "commands/preview.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"

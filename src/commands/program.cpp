@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/error_list.h"
@@ -74,7 +72,7 @@ const Command* find_command(const string& name) {
 
 /// The document of --json for an error that leaves a command without one.
 void write_failure(const vector<string>& words, string_view status, const vector<ErrorRecord>& errors) {
-  if (std::ranges::find(words, "--json") == words.end() || find_command(words.front()) == nullptr) return;
+  if (!contains(words, "--json") || find_command(words.front()) == nullptr) return;
   Json json = {{"status", string(status)}};
   if (!errors.empty()) json["errors"] = errors_json(errors);
   write_out(document(words.front(), std::move(json)));

@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "commands/text.h"
 #include "numerics/whole.h"
 #include "run/stopwatch.h"
@@ -29,8 +26,8 @@ ProgressChoice progress_choice(const Options& options) {
 
 // Whole seconds: the estimate is no more precise.
 string left_text(double left) {
-  if (!std::isfinite(left)) return "";
-  const double whole = std::ceil(left);
+  if (!isfinite(left)) return "";
+  const double whole = ceil(left);
   return (whole < 60 ? fmt::format("{:.0f} s", whole) : wait_text(whole)) + " left";
 }
 

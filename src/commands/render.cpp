@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <chrono>
 
 #include "commands/batch.h"
@@ -41,7 +40,7 @@ vector<string> names_of(const Output& output, bool draws) {
 void refuse_tables(const Options& options) {
   const vector<string> drawn = names_of(with_all({}), true);
   for (const string& name : options.only.value_or(vector<string>{}))
-    if (std::ranges::find(drawn, name) == drawn.end())
+    if (!contains(drawn, name))
       throw UsageError(fmt::format("render makes {}", joined(drawn, ", ")),
                        fmt::format("carom {} {}", name == plot_files.folder ? "plot makes" : "run writes", name));
 }

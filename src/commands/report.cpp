@@ -6,10 +6,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "commands/error_list.h"
 #include "commands/text.h"
 #include "files/manifest.h"
@@ -43,7 +39,7 @@ bool is_kept(const PlannedScene& planned, const string& file) {
 // "a.csv, b.csv and 60 pictures in frames/".
 string written_files(const PlannedScene& planned) {
   vector<string> names;
-  std::map<const OutputKind*, uint64_t> series;
+  map<const OutputKind*, uint64_t> series;
   for (const string& file : files_in(planned.folder)) {
     if (is_kept(planned, file)) continue;
     if (const OutputKind* kind = series_of(file)) {
@@ -124,7 +120,7 @@ string work_text(const Summary& summary) {
 }
 
 Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value == 0 ? 0.0 : value) : Json(nullptr);
+  return isfinite(value) ? Json(value == 0 ? 0.0 : value) : Json(nullptr);
 }
 
 }  // namespace
@@ -171,7 +167,7 @@ vector<string> files_in(const string& folder) {
   if (!manifest) return files;
   for (const FileRecord& record : manifest->files) files.push_back(record.name);
   files.push_back(manifest_name);
-  std::ranges::sort(files);
+  ranges::sort(files);
   return files;
 }
 

@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "commands/text.h"
 #include "std.h"
 
@@ -30,7 +26,7 @@ double Pace::rate() const {
   if (!(last.done > from.done)) from = {};
   const double time = last.elapsed - from.elapsed;
   const double work = last.done - from.done;
-  return work > 0 && time > 0 ? time / work : numeric_limits<double>::infinity();
+  return work > 0 && time > 0 ? time / work : infinity;
 }
 
 void RunPace::note(double elapsed, const RunProgress& progress) {
@@ -42,7 +38,7 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
   const double in_phase = elapsed - phase_from_;
   switch (progress.phase) {
     case Phase::settling:
-      left_ = numeric_limits<double>::infinity();
+      left_ = infinity;
       break;
 
     case Phase::simulating:
@@ -60,12 +56,12 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
       break;
   }
 
-  if (std::isfinite(left_) && elapsed > 0) share_ = max(share_, elapsed / (elapsed + left_));
+  if (isfinite(left_) && elapsed > 0) share_ = max(share_, elapsed / (elapsed + left_));
 }
 
 double RunPace::simulation_left() {
   const double rate = simulating_.rate();
-  if (!std::isfinite(rate)) return ahead_.duration > 0 ? rate : 0;
+  if (!isfinite(rate)) return ahead_.duration > 0 ? rate : 0;
   return time_ahead(ahead_.crowd, now_.time, max(ahead_.duration, now_.time), rate);
 }
 
@@ -73,12 +69,12 @@ double RunPace::simulation_left() {
 double RunPace::drawing_left() {
   const double rate = drawing_.rate();
   const auto to_come = double(ahead_.pictures - min(now_.pictures, ahead_.pictures));
-  return std::isfinite(rate) ? to_come * rate : ahead_.draw_s;
+  return isfinite(rate) ? to_come * rate : ahead_.draw_s;
 }
 
 double RunPace::left() const {
   const bool early = elapsed_ - phase_from_ < first_seconds;
-  return early || !std::isfinite(left_) ? numeric_limits<double>::quiet_NaN() : left_;
+  return early || !isfinite(left_) ? numeric_limits<double>::quiet_NaN() : left_;
 }
 
 string RunPace::text() const {

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -37,7 +36,7 @@ bool is_named(string_view file, std::initializer_list<string_view> endings) {
   string ending = fs::path(file).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return std::ranges::find(endings, ending) != endings.end();
+  return contains(endings, ending);
 }
 
 /// "%20" to " ".
@@ -56,7 +55,7 @@ string decoded(string_view uri) {
   return out;
 }
 
-void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, std::set<string>& files) {
+void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, set<string>& files) {
   for (const char* list : {"buffers", "images"}) {
     if (!json.is_object() || !json.contains(list) || !json[list].is_array()) continue;
     for (const auto& entry : json[list])
@@ -66,7 +65,7 @@ void add_uris(const nlohmann::ordered_json& json, const fs::path& folder, std::s
 }
 
 /// The names behind the first word of lines that begin with `word`: all behind it, and the last of its parts.
-void add_names(string_view text, string_view word, const fs::path& folder, std::set<string>& files) {
+void add_names(string_view text, string_view word, const fs::path& folder, set<string>& files) {
   for (size_t i = 0; i < text.size();) {
     const size_t end = min(text.find_first_of("\r\n", i), text.size());
     string_view line = text.substr(i, end - i);
@@ -85,12 +84,12 @@ void add_names(string_view text, string_view word, const fs::path& folder, std::
   }
 }
 
-void add_mesh(const string& mesh, std::set<string>& files) {
+void add_mesh(const string& mesh, set<string>& files) {
   if (!files.insert(mesh).second) return;
   const fs::path folder = fs::path(mesh).parent_path();
   if (is_named(mesh, {".gltf"})) add_uris(json_of_text(text_of(mesh)), folder, files);
   if (!is_named(mesh, {".obj"})) return;
-  std::set<string> libraries;
+  set<string> libraries;
   add_names(text_of(mesh), "mtllib", folder, libraries);
   for (const string& library : libraries) {
     files.insert(library);
@@ -100,8 +99,8 @@ void add_mesh(const string& mesh, std::set<string>& files) {
 
 }  // namespace
 
-std::set<string> files_of_scene(const PlannedScene& planned) {
-  std::set<string> files = {planned.file};
+set<string> files_of_scene(const PlannedScene& planned) {
+  set<string> files = {planned.file};
   if (planned.scene)
     for (const MeshFile& mesh : planned.scene->meshes) add_mesh(mesh.file, files);
   if (planned.scene && planned.scene->made_from.start)

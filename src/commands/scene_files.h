@@ -1,6 +1,5 @@
 #pragma once
 // The files that a scene depends on.
-#include <set>
 
 #include "commands/plan.h"
 #include "std.h"
@@ -10,6 +9,6 @@ namespace carom {
 /// The scene file, its meshes, the materials and textures that these name, and the manifest of the run that it begins
 /// with, whether they exist or not.
 /// Of a scene with errors, as far as its text shows.
-std::set<string> files_of_scene(const PlannedScene& planned);
+set<string> files_of_scene(const PlannedScene& planned);
 
 }  // namespace carom

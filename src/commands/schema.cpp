@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "commands/option_table.h"
 #include "commands/terminal.h"
 #include "commands/text.h"
@@ -22,7 +20,7 @@ int print_schema(const Options& options) {
   const string name = options.operands.empty() ? "scene" : options.operands.front();
   vector<string> known;
   for (const auto family : families()) known.emplace_back(family.front().name);
-  if (std::ranges::find(known, name) == known.end()) {
+  if (!contains(known, name)) {
     throw UsageError(fmt::format("no kind of file {}{}; the kinds are {}", in_backticks(name),
                                  did_you_mean(name, known), listed(known, known.size())));
   }

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "std.h"

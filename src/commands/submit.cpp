@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -76,13 +75,13 @@ vector<string> sweep_words(const Options& options, const string& folder) {
   for (const string& grid : options.sweep.grid) add("--grid", grid);
   for (const string& set : options.set) add("--set", set);
   if (options.only) add("--only", joined(*options.only, ","));
-  if (options.sweep.random) add("--random", std::to_string(*options.sweep.random));
-  if (options.sweep.latin) add("--latin", std::to_string(*options.sweep.latin));
-  if (options.sweep.repeat) add("--repeat", std::to_string(*options.sweep.repeat));
+  if (options.sweep.random) add("--random", to_string(*options.sweep.random));
+  if (options.sweep.latin) add("--latin", to_string(*options.sweep.latin));
+  if (options.sweep.repeat) add("--repeat", to_string(*options.sweep.repeat));
   if (options.sweep.skip_invalid) words.emplace_back("--skip-invalid");
 
   if (!options.compare.measures.empty()) add("--measures", joined(options.compare.measures, ","));
-  if (options.seed) add("--seed", std::to_string(*options.seed));
+  if (options.seed) add("--seed", to_string(*options.seed));
   if (options.force) words.emplace_back("--force");
   return words;
 }

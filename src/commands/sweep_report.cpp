@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -24,7 +23,7 @@ namespace {
 constexpr size_t failures_shown = 10;
 
 /// A line for each of the first ones: "r0003: `mass` is 0".
-void describe_skipped(Block& block, const vector<std::pair<string, string>>& skipped) {
+void describe_skipped(Block& block, const vector<pair<string, string>>& skipped) {
   if (skipped.empty()) return;
   block.warning("left out", counted(skipped.size(), "invalid run", "invalid runs"));
   for (size_t i = 0; i < min(skipped.size(), failures_shown); ++i)
@@ -32,7 +31,7 @@ void describe_skipped(Block& block, const vector<std::pair<string, string>>& ski
   if (skipped.size() > failures_shown) block.line("", fmt::format("and {} more", skipped.size() - failures_shown));
 }
 
-Json skipped_json(const vector<std::pair<string, string>>& skipped) {
+Json skipped_json(const vector<pair<string, string>>& skipped) {
   Json list = Json::array();
   for (const auto& [run, errors] : skipped)
     list.push_back({{"run", run}, {"errors", errors_json(error_of_text(errors))}});
@@ -115,7 +114,7 @@ int show_failure(const Options& options, int code, const vector<ErrorRecord>& er
 
 int show_plan(const Options& options, const SweepJob& job) {
   const Sweep& sweep = job.sweep();
-  vector<std::pair<string, string>> skipped;
+  vector<pair<string, string>> skipped;
   for (const InvalidRun& run : job.invalid()) skipped.emplace_back(sweep.id(run.number), run.messages);
 
   if (options.json) {

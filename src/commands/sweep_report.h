@@ -1,6 +1,5 @@
 #pragma once
 // The report of a sweep, as text or as JSON.
-#include <utility>
 
 #include "commands/options.h"
 #include "std.h"
@@ -10,13 +9,13 @@
 namespace carom {
 
 struct SweepOutcome {
-  string status;                               // "done", "up to date"
-  size_t to_do = 0;                            // runs that were not done yet
-  size_t runs = 0;                             // of the whole sweep
-  vector<std::pair<size_t, string>> failures;  // run, why
+  string status;                          // "done", "up to date"
+  size_t to_do = 0;                       // runs that were not done yet
+  size_t runs = 0;                        // of the whole sweep
+  vector<pair<size_t, string>> failures;  // run, why
   double wall_s = 0;
-  size_t doubtful = 0;                          // runs of the whole sweep; unknown for a part
-  vector<std::pair<string, string>> skipped{};  // runs that are left out, and the errors of their scenes
+  size_t doubtful = 0;                     // runs of the whole sweep; unknown for a part
+  vector<pair<string, string>> skipped{};  // runs that are left out, and the errors of their scenes
 };
 
 /// The end of a sweep, on stdout, and the runs that failed, on stderr. These functions give the exit code.

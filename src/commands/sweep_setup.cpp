@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
-#include <map>
 
 #include "commands/interrupt.h"
 #include "commands/option_table.h"
@@ -33,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 bool varies(const Sweep& sweep, string_view path) {
-  return std::ranges::find(sweep.paths, path) != sweep.paths.end();
+  return contains(sweep.paths, path);
 }
 
 void set_for_all(Sweep& sweep, const string& text, string_view option) {
@@ -76,7 +73,7 @@ void refuse_samples(const Options& options) {
                      fmt::format("add to its {}", words.grid.empty() ? "`random` or `latin`" : "`grid`"));
 
   if (words.random && words.latin) throw UsageError("--random and --latin exclude one another", "remove one of them");
-  const auto open = std::ranges::find_if(words.grid, is_open_range);
+  const auto open = ranges::find_if(words.grid, is_open_range);
   if (open != words.grid.end() && !samples)
     throw UsageError(fmt::format("--grid {} has no count", printable(*open)),
                      fmt::format("add one, such as {}:6, or draw from it with --latin 50", printable(*open)));
@@ -113,7 +110,7 @@ Sweep read_sweep(const Options& options) {
 
   for (const string& name : options.compare.measures) {
     const auto is_named = [&](const SweepMeasure& measure) { return measure.name == name; };
-    if (std::ranges::none_of(sweep.measures, is_named)) sweep.measures.push_back({name, "--measures"});
+    if (none_of(sweep.measures, is_named)) sweep.measures.push_back({name, "--measures"});
   }
   return sweep;
 }
@@ -130,7 +127,7 @@ SweepSettings sweep_settings(const Options& options) {
   settings.load.color = !options.json && uses_color(options.color, STDERR_FILENO);
 
   // Every scenario has the base's meshes, so each mesh is read once.
-  auto known = make_shared<std::map<string, vector<Vec3>>>();
+  auto known = make_shared<map<string, vector<Vec3>>>();
   settings.load.measure_fault = measure_fault;
   settings.load.mesh_points = [known](const string& path) {
     const auto found = known->find(path);

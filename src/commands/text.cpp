@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 #include "yaml/letters.h"
 
@@ -17,7 +14,7 @@ string quantity(double value, string_view unit) {
 }
 
 string grouped(uint64_t count) {
-  string digits = std::to_string(count);
+  string digits = to_string(count);
   for (size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
   return digits;
 }
@@ -36,7 +33,7 @@ string bytes_text(uint64_t bytes) {
 }
 
 string wait_text(double seconds) {
-  if (!std::isfinite(seconds) || seconds < 0) return "-";
+  if (!isfinite(seconds) || seconds < 0) return "-";
   if (seconds < 0.00995) return fmt::format("{:.1f} ms", seconds * 1000);
   if (seconds < 0.9995) return fmt::format("{:.0f} ms", seconds * 1000);
   if (seconds < 9.995) return fmt::format("{:.2f} s", seconds);
@@ -89,7 +86,7 @@ string shell_word(const string& word) {
     return "\"$(printf '" + octal + "')\"";
   }
 
-  const bool plain = !word.empty() && std::ranges::all_of(word, [](char c) {
+  const bool plain = !word.empty() && all_of(word, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            string_view("_-./=,:@%+").find(c) != string_view::npos;
   });

@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "commands/batch.h"
 #include "commands/file_watch.h"
@@ -26,7 +24,7 @@ class WatchSession {
   explicit WatchSession(const Options& options) : options_(options), files_(options.operands.size()) {}
 
   int go() {
-    std::set<string> changed(options_.operands.begin(), options_.operands.end());
+    set<string> changed(options_.operands.begin(), options_.operands.end());
     for (size_t i = 0; i < files_.size(); ++i) files_[i] = {options_.operands[i]};
     watch_.follow(changed);
     while (true) {
@@ -41,11 +39,11 @@ class WatchSession {
   static constexpr size_t names_shown = 6;
 
   /// Gives the exit code of the runs.
-  int round(const std::set<string>& changed) {
+  int round(const set<string>& changed) {
     vector<PlannedScene> scenes = named_scenes(options_), affected;
     vector<size_t> numbers;
     for (size_t i = 0; i < scenes.size(); ++i) {
-      if (std::ranges::none_of(files_[i], [&](const auto& file) { return changed.contains(file); })) continue;
+      if (none_of(files_[i], [&](const auto& file) { return changed.contains(file); })) continue;
       numbers.push_back(i);
       affected.push_back(std::move(scenes[i]));
     }
@@ -74,15 +72,15 @@ class WatchSession {
   }
 
   /// Textures and materials are not among what makes a run up to date.
-  static void renew_pictures(PlannedScene& planned, const std::set<string>& changed) {
+  static void renew_pictures(PlannedScene& planned, const set<string>& changed) {
     if (planned.found.content != FolderContent::this_run || !planned.scene || !planned.scene->output.pictures()) return;
-    const std::set<string> files = files_of_scene(planned);
-    if (std::ranges::any_of(files, [&](const auto& file) { return file != planned.file && changed.contains(file); }))
+    const set<string> files = files_of_scene(planned);
+    if (any_of(files, [&](const auto& file) { return file != planned.file && changed.contains(file); }))
       planned.found.content = FolderContent::incomplete;
   }
 
   void follow() {
-    std::set<string> all;
+    set<string> all;
     for (const auto& files : files_) all.insert(files.begin(), files.end());
     watch_.follow(all);
   }
@@ -97,7 +95,7 @@ class WatchSession {
   }
 
   const Options& options_;
-  vector<std::set<string>> files_;  // by scene
+  vector<set<string>> files_;  // by scene
   FileWatch watch_;
 };
 

@@ -4,11 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -109,10 +104,10 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
     data.note += fmt::format("{}one of {} runs", data.note.empty() ? "" : ", ", every * outcomes.every());
 
   // x, or the order of its text; the number of earlier points with it.
-  using Row = std::pair<std::pair<double, size_t>, size_t>;
-  std::map<Row, vector<std::pair<size_t, size_t>>> rows;  // line and point
-  std::map<string, size_t> texts;
-  std::map<std::pair<size_t, std::pair<double, size_t>>, size_t> seen;
+  using Row = pair<pair<double, size_t>, size_t>;
+  map<Row, vector<pair<size_t, size_t>>> rows;  // line and point
+  map<string, size_t> texts;
+  map<pair<size_t, pair<double, size_t>>, size_t> seen;
 
   for (size_t i = 0; i < outcomes.points(); ++i) {
     const size_t line = line_of(i);
@@ -121,8 +116,8 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
 
     const Cell x = axis.of_point(i);
     if (axis.numeric && !x.is_number()) continue;
-    const std::pair<double, size_t> key =
-        axis.numeric ? std::pair(x.number, size_t{0}) : std::pair(0.0, texts.emplace(x.text, i).first->second);
+    const pair<double, size_t> key =
+        axis.numeric ? pair(x.number, size_t{0}) : pair(0.0, texts.emplace(x.text, i).first->second);
     rows[{key, seen[{line, key}]++}].emplace_back(line, i);
   }
 

@@ -2,8 +2,6 @@
 // rows keeps memory and the workbook small.
 #include "compare/collision_sheet.h"
 
-#include <algorithm>
-
 #include "compare/data_dictionary.h"
 #include "compare/number_look.h"
 #include "std.h"

@@ -2,8 +2,6 @@
 // The first scene's text is kept with a flag for each byte, and is parsed once at the end.
 #include "compare/common_values.h"
 
-#include <algorithm>
-
 #include "files/stored_file.h"
 #include "scene/load.h"
 #include "scene/scene.h"
@@ -38,7 +36,7 @@ void CommonValues::add(const RunRecord& run) {
 
 // A resolved scene has a line for each thing and a comma between its values. Ten thousand scenes need not be parsed.
 void CommonValues::compare(string_view other) {
-  if (std::ranges::count(text_, '\n') != std::ranges::count(other, '\n')) {
+  if (ranges::count(text_, '\n') != ranges::count(other, '\n')) {
     same_.assign(text_.size(), false);
     return;
   }
@@ -53,7 +51,7 @@ void CommonValues::compare(string_view other) {
     string_view line = take(rest, '\n'), other_line = take(other, '\n');
     if (line == other_line) continue;
 
-    if (std::ranges::count(line, ',') != std::ranges::count(other_line, ',')) {
+    if (ranges::count(line, ',') != ranges::count(other_line, ',')) {
       differ(line);
       continue;
     }

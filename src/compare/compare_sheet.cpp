@@ -4,11 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -114,17 +109,17 @@ void set_ends(lxw_chart_axis* axis, double low, double high) {
   while (step > high - low) step /= 10;
   for (const double part : {0.5, 0.4, 0.5})
     if ((high - low) / step < 4) step *= part;
-  chart_axis_set_min(axis, step * std::floor(low / step));
-  chart_axis_set_max(axis, step * std::ceil(high / step));
+  chart_axis_set_min(axis, step * floor(low / step));
+  chart_axis_set_max(axis, step * ceil(high / step));
   chart_axis_set_major_unit(axis, step);
 }
 
 /// The least and the greatest value drawn, including error bars.
-std::pair<double, double> ends_of(const ChartData& data) {
-  double low = numeric_limits<double>::infinity(), high = -low;
+pair<double, double> ends_of(const ChartData& data) {
+  double low = infinity, high = -low;
   for (const ChartLine& line : data.lines)
     for (size_t row = 0; row < line.y.size(); ++row) {
-      if (!std::isfinite(line.y[row])) continue;
+      if (!isfinite(line.y[row])) continue;
       const double sd = line.spread.empty() || !(line.spread[row] > 0) ? 0 : line.spread[row];
       low = min(low, line.y[row] - sd);
       high = max(high, line.y[row] + sd);
@@ -135,7 +130,7 @@ std::pair<double, double> ends_of(const ChartData& data) {
 size_t bars_of(const ChartData& data) {
   size_t bars = 0;
   for (const ChartLine& line : data.lines)
-    bars += size_t(std::ranges::count_if(line.spread, [](double sd) { return sd > 0; }));
+    bars += size_t(ranges::count_if(line.spread, [](double sd) { return sd > 0; }));
   return bars;
 }
 

@@ -4,9 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "compare/stored_measures.h"
 #include "files/manifest.h"
 #include "files/open_folder.h"
@@ -42,7 +39,7 @@ bool has_file(const RunRecord& run, const char* name) {
 }
 
 bool has_measures(const string& path, const vector<Measure>& measures) {
-  if (std::ranges::all_of(measures, [](const Measure& m) { return m.column != nullptr; })) return true;
+  if (all_of(measures, [](const Measure& m) { return m.column != nullptr; })) return true;
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   return folder && StoredMeasures(folder.get(), path).have(measures);
 }

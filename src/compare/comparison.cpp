@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "compare/charts.h"
 #include "compare/collision_sheet.h"
 #include "compare/common_values.h"
@@ -201,12 +199,12 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
     const ComparedRun one = run(i);
     points[i] = outcomes.add(i, one, false, {});
     // A failed run may have no scene at all.
-    if (std::ranges::all_of(one.values, [](const auto& value) { return value.empty(); })) continue;
+    if (all_of(one.values, [](const auto& value) { return value.empty(); })) continue;
     for (size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
   }
 
   outcomes.finish();
-  const auto absent = size_t(std::ranges::count(is_absent, true));
+  const auto absent = size_t(ranges::count(is_absent, true));
   variation.unrelated = 2 * absent > plan.parameters.size();
   variation.two = plan.parameters.size() > 1 && !variation.unrelated && pivot_parameters(plan, outcomes).has_value();
   variation.scenarios = chosen_scenarios(plan, outcomes, points, variation.unrelated);

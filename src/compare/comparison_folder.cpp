@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "files/folder_names.h"
@@ -24,7 +23,7 @@ constexpr const char* request_key = "comparison";
 
 bool is_comparison_file(const string& name) {
   const array<string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
-  return std::ranges::find(names, name) != names.end();
+  return contains(names, name);
 }
 
 bool is_comparison(const Manifest& manifest) {
@@ -63,13 +62,13 @@ FolderContent inspect_comparison_folder(const string& path, const string& reques
   if (found.names.empty()) return found.content;
   if (!found.has(manifest_name)) {
     // A comparison that was killed during writing, or while its files were renamed.
-    const bool ours = std::ranges::all_of(
-        found.names, [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
+    const bool ours =
+        all_of(found.names, [](const auto& name) { return is_part_name(name) || is_comparison_file(name); });
     return ours ? FolderContent::incomplete : FolderContent::other_run;
   }
   const auto manifest = read_manifest(folder.get(), manifest_name);
   if (!manifest || !is_comparison(*manifest)) return FolderContent::other_run;
-  const bool whole = std::ranges::all_of(manifest->files, [&](const FileRecord& file) {
+  const bool whole = all_of(manifest->files, [&](const FileRecord& file) {
     const auto stored = read_record(folder.get(), file.name);
     return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
   });

@@ -1,8 +1,6 @@
 // Reads lines from the end, so that a file of gigabytes costs as much as a short one.
 #include "compare/end_of_trajectory.h"
 
-#include <algorithm>
-
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
@@ -34,7 +32,7 @@ TrajectoryEnd end_of_trajectory(int folder) {
   });
 
   end.time = number_in(instant).value_or(0);
-  if (!layout.is_wide()) std::ranges::reverse(end.bodies);
+  if (!layout.is_wide()) ranges::reverse(end.bodies);
   return end;
 }
 

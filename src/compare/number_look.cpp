@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "std.h"
 
@@ -35,11 +33,11 @@ int decimals_of(double number) {
 }  // namespace
 
 void NumberLook::add(double number) {
-  if (!std::isfinite(number)) return;
+  if (!isfinite(number)) return;
   any_ = true;
   negative_ = negative_ || number < 0;
   if (number == 0) return;
-  const int decade = int(std::floor(std::log10(std::abs(number))));
+  const int decade = int(floor(std::log10(std::abs(number))));
   has_[size_t(clamp(decade - least_decade, 0, decades - 1))] = true;
   decimals_ = max(decimals_, decimals_of(number));
 }

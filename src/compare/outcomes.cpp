@@ -4,10 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <set>
 
 #include "compare/number_look.h"
 #include "files/csv.h"
@@ -52,7 +49,7 @@ void for_cells(const ComparisonPlan& plan, size_t measures, const Outcomes& outc
 }  // namespace
 
 void Spread::add(double value) {
-  if (!std::isfinite(value)) return;
+  if (!isfinite(value)) return;
   ++count_;
   min_ = count_ == 1 ? value : std::min(min_, value);
   max_ = count_ == 1 ? value : std::max(max_, value);
@@ -62,7 +59,7 @@ void Spread::add(double value) {
 }
 
 double Spread::sd() const {
-  return count_ > 1 ? std::sqrt(squares_ / double(count_ - 1)) : numeric_limits<double>::quiet_NaN();
+  return count_ > 1 ? sqrt(squares_ / double(count_ - 1)) : numeric_limits<double>::quiet_NaN();
 }
 
 Outcomes::Outcomes(const ComparisonPlan& plan, size_t measures, size_t runs)
@@ -145,7 +142,7 @@ void Outcomes::finish() {
     // Sort the values, and let the points have their new places.
     vector<uint32_t> order(varied.values.size()), place(order.size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, [&](auto a, auto b) { return varied.values[a].number < varied.values[b].number; });
+    ranges::stable_sort(order, [&](auto a, auto b) { return varied.values[a].number < varied.values[b].number; });
     vector<Cell> sorted;
     for (uint32_t k = 0; k < order.size(); ++k) {
       place[order[k]] = k;
@@ -172,8 +169,7 @@ vector<size_t> Outcomes::independent() const {
   vector<size_t> chosen;
   for (size_t p = 0; p < varied_.size(); ++p) {
     if (varied_[p].values.size() < 2) continue;
-    const bool new_one =
-        std::ranges::none_of(chosen, [&](size_t other) { return follows(varied_[other], varied_[p]); });
+    const bool new_one = none_of(chosen, [&](size_t other) { return follows(varied_[other], varied_[p]); });
     if (new_one) chosen.push_back(p);
   }
   return chosen;

@@ -1,7 +1,5 @@
 #pragma once
 // The results by what was varied: a point for each run, or for each scenario of repeated runs.
-#include <limits>
-#include <map>
 
 #include "compare/plan.h"
 #include "compare/workbook.h"
@@ -67,8 +65,8 @@ class Outcomes {
   optional<size_t> seed_;
   size_t measures_, stride_;
   vector<Varied> varied_;
-  vector<std::map<string, uint32_t>> numbers_;  // indices of values, by parameter
-  std::map<vector<uint32_t>, size_t> scenarios_;
+  vector<map<string, uint32_t>> numbers_;  // indices of values, by parameter
+  map<vector<uint32_t>, size_t> scenarios_;
   vector<uint32_t> runs_;  // by point, as the members below
   string ids_;             // concatenated
   vector<size_t> id_ends_;

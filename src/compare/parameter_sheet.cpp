@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "scene/path_field.h"
 #include "std.h"
 
@@ -53,11 +51,10 @@ size_t ParameterSheet::write_ranges(const Outcomes& outcomes, size_t row) {
 size_t ParameterSheet::write_differences(size_t row) {
   // Values of the motion that all scenes have, then those that some lack, then cameras and colours.
   const auto rank = [&](const Difference& difference) {
-    const bool lacks = std::ranges::any_of(difference.values, [](auto& v) { return v.empty(); });
+    const bool lacks = any_of(difference.values, [](auto& v) { return v.empty(); });
     return (is_drawn(plan_.parameters[difference.parameter].path) ? 2 : 0) + (lacks ? 1 : 0);
   };
-  std::ranges::stable_sort(differences_.rows,
-                           [&](const Difference& a, const Difference& b) { return rank(a) < rank(b); });
+  ranges::stable_sort(differences_.rows, [&](const Difference& a, const Difference& b) { return rank(a) < rank(b); });
 
   sheet_.text(row++, 0, "What differs", CellStyle::title);
   if (differences_.all_runs > differences_.runs.size())

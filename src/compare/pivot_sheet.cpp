@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "compare/scenarios.h"
 #include "std.h"
 
@@ -48,28 +45,28 @@ void add_scale(Worksheet& sheet, size_t row, size_t rows, size_t columns) {
 
 }  // namespace
 
-optional<std::pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan, const Outcomes& outcomes) {
+optional<pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan, const Outcomes& outcomes) {
   const auto varies = [&](optional<size_t> p) {
     return p && p != plan.seed && outcomes.varied()[*p].values.size() > 1;
   };
   for (const Chart& chart : plan.charts) {
     const auto x = find_parameter(plan, chart.x), by = find_parameter(plan, chart.by);
-    if (varies(x) && varies(by) && x != by) return std::pair(*x, *by);
+    if (varies(x) && varies(by) && x != by) return pair(*x, *by);
   }
   const vector<size_t> independent = outcomes.independent();
   if (independent.size() < 2) return nullopt;
-  return std::pair(independent[0], independent[1]);
+  return pair(independent[0], independent[1]);
 }
 
 void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
-                 const Outcomes& outcomes, std::pair<size_t, size_t> parameters, const SummaryPlace& summary) {
+                 const Outcomes& outcomes, pair<size_t, size_t> parameters, const SummaryPlace& summary) {
   const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
   const size_t height = min(down.values.size(), most_labels);
   const size_t width = min(across.values.size(), most_labels);
   const size_t blocks = min(measures.size(), most_blocks);
 
   // A formula takes its criteria from the cells of the heads.
-  const bool literal = std::ranges::all_of(down.values, is_literal) && std::ranges::all_of(across.values, is_literal);
+  const bool literal = all_of(down.values, is_literal) && all_of(across.values, is_literal);
   const bool formulas = summary.rows > 0 && literal && blocks * height * width <= most_formulas;
 
   const vector<string> names =

@@ -1,6 +1,5 @@
 #pragma once
 // A measure by two parameters: the mean of the runs with both values. Small tables use formulas.
-#include <utility>
 
 #include "compare/outcomes.h"
 #include "std.h"
@@ -9,7 +8,7 @@ namespace carom {
 
 /// The two parameters of the table: those of the first chart that has two, else the first two that vary independently.
 /// None: fewer than two vary.
-optional<std::pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan, const Outcomes& outcomes);
+optional<pair<size_t, size_t>> pivot_parameters(const ComparisonPlan& plan, const Outcomes& outcomes);
 
 /// The place of the data on the sheet Summary.
 struct SummaryPlace {
@@ -18,6 +17,6 @@ struct SummaryPlace {
 };
 
 void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
-                 const Outcomes& outcomes, std::pair<size_t, size_t> parameters, const SummaryPlace& summary);
+                 const Outcomes& outcomes, pair<size_t, size_t> parameters, const SummaryPlace& summary);
 
 }  // namespace carom

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
@@ -34,7 +32,7 @@ string name_of_value(const Parameter& parameter, const string& value) {
 vector<Measure> measures_of(const ComparisonPlan& plan) {
   vector<Measure> measures;
   const auto add = [&](string_view name) {
-    const bool known = std::ranges::any_of(measures, [&](const Measure& measure) { return measure.name == name; });
+    const bool known = any_of(measures, [&](const Measure& measure) { return measure.name == name; });
     if (!known) measures.push_back(parse_measure(name, plan.own));
   };
 

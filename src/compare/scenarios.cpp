@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "std.h"
 
 namespace carom {
@@ -22,7 +19,7 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
     for (size_t i = 0; i < all; ++i) order[i] = i;
     if (!parameters.empty()) {
       const Varied& varied = outcomes.varied()[parameters.front()];
-      std::ranges::stable_sort(order, [&](size_t a, size_t b) { return varied.of_point[a] < varied.of_point[b]; });
+      ranges::stable_sort(order, [&](size_t a, size_t b) { return varied.of_point[a] < varied.of_point[b]; });
     }
 
     for (size_t k = 0; k < min(all, count); ++k)
@@ -31,7 +28,7 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
   }
 
   // The next one is always the farthest from those that are chosen.
-  vector<double> nearest(all, numeric_limits<double>::infinity());  // squared distance to those chosen
+  vector<double> nearest(all, infinity);  // squared distance to those chosen
   size_t next = 0;
   while (chosen.size() < count && nearest[next] > 0) {
     chosen.push_back(next);
@@ -51,7 +48,7 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
     }
   }
 
-  std::ranges::sort(chosen);
+  ranges::sort(chosen);
   return chosen;
 }
 
@@ -75,8 +72,8 @@ vector<string> short_names(const vector<string>& paths) {
     size_t words = tail(path, 1).size() == 1 && !path.starts_with("let.") ? 2 : 1;
 
     const auto is_taken = [&] {
-      return std::ranges::any_of(
-          paths, [&](const string& other) { return other != path && tail(other, words) == tail(path, words); });
+      return any_of(paths,
+                    [&](const string& other) { return other != path && tail(other, words) == tail(path, words); });
     };
     while (tail(path, words) != path && is_taken()) ++words;
     names.push_back(tail(path, words));

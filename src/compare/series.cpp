@@ -3,11 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <utility>
 
 #include "compare/end_of_trajectory.h"
 #include "files/stored_file.h"
@@ -123,7 +119,7 @@ void SeriesGatherer::take(uint32_t scenario, SeriesGroup part) {
 
   // A repeat joins the mean of those before it.
   for (SeriesGroup& group : groups_) {
-    const auto same = std::ranges::find_if(group.columns, [&](const SeriesColumn& column) {
+    const auto same = ranges::find_if(group.columns, [&](const SeriesColumn& column) {
       return column.scenario == scenario && column.name == part.columns.front().name;
     });
     if (same == group.columns.end()) continue;
@@ -142,7 +138,7 @@ void SeriesGatherer::take(uint32_t scenario, SeriesGroup part) {
   }
 
   // Scenarios with the same instants share their column.
-  auto group = std::ranges::find_if(groups_, [&](const auto& g) { return g.times == part.times; });
+  auto group = ranges::find_if(groups_, [&](const auto& g) { return g.times == part.times; });
   if (group == groups_.end()) {
     groups_.push_back({part.times, {}});
     group = groups_.end() - 1;

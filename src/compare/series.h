@@ -1,6 +1,5 @@
 #pragma once
 // Time series of a few scenarios, thinned to what charts can show. Those of repeats are their mean.
-#include <limits>
 
 #include "compare/compared_run.h"
 #include "compare/scenarios.h"

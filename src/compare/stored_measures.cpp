@@ -4,12 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
-#include <utility>
-
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
@@ -65,7 +59,7 @@ const Manifest* StoredMeasures::manifest() {
 const Measured* StoredMeasures::measured(const string& name) {
   const Manifest* of = manifest();
   if (of == nullptr) return nullptr;
-  const auto found = std::ranges::find_if(of->measures, [&](const Measured& one) { return one.name == name; });
+  const auto found = ranges::find_if(of->measures, [&](const Measured& one) { return one.name == name; });
   return found == of->measures.end() ? nullptr : &*found;
 }
 
@@ -85,14 +79,14 @@ const vector<EndMotion>& StoredMeasures::ends() {
 
 bool StoredMeasures::has(const Measure& measure) {
   if (measure.form == MeasureForm::column || measured(measure.name) != nullptr) return true;
-  if (!std::ranges::all_of(measure.parts, [this](const Measure& part) { return has(part); })) return false;
+  if (!all_of(measure.parts, [this](const Measure& part) { return has(part); })) return false;
   if (measure.form == MeasureForm::expression || measure.form == MeasureForm::given) return true;
   const char* table = table_of(measure);
   return table != nullptr && has_file(table);
 }
 
 bool StoredMeasures::have(span<const Measure> measures) {
-  return std::ranges::all_of(measures, [this](const Measure& measure) { return has(measure); });
+  return all_of(measures, [this](const Measure& measure) { return has(measure); });
 }
 
 Measured StoredMeasures::value(const Measure& measure, const vector<string>& summary) {
@@ -183,7 +177,7 @@ double StoredMeasures::evaluated(const Measure& measure, const vector<string>& s
 
 string StoredMeasures::second_body(string_view string) {
   const vector<std::string>& names = scene().roster.strings;
-  const auto found = std::ranges::find(names, string);
+  const auto found = ranges::find(names, string);
   if (found == names.end()) return {};
   const Entity other = scene().world.strings[size_t(found - names.begin())].other;
   return other == no_entity ? std::string() : scene().roster.name(other);
@@ -217,10 +211,10 @@ StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
   Visits found{0, 0, undefined, {}};
 
   // A body is removed where it enters such a region, and is then inside of none.
-  std::set<string> removing;
+  set<string> removing;
   for (size_t r = 0; r < scene().world.regions.size(); ++r)
     if (scene().world.regions[r].removes) removing.insert(scene().roster.regions[r]);
-  std::set<std::pair<string, string>> inside;  // region, body
+  set<pair<string, string>> inside;  // region, body
 
   while (table.next() != nullptr) {
     const string in(table.cell(region)), who(table.cell(body));

@@ -5,10 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
-#include <map>
-#include <utility>
 
 #include "files/csv.h"
 #include "files/run_folder.h"
@@ -101,7 +98,7 @@ void SummarySheet::add(size_t number, const RunRecord& run) {
 void SummarySheet::choose_columns() {
   const auto add = [&](const auto& belongs) {
     for (size_t k = 0; k < columns_.size(); ++k)
-      if (std::ranges::find(shown_, k) == shown_.end() && belongs(columns_[k])) shown_.push_back(k);
+      if (!contains(shown_, k) && belongs(columns_[k])) shown_.push_back(k);
   };
   add([](const Column& column) { return column.name == "run"; });
   if (!unrelated_) add([](const Column& column) { return column.parameter.has_value(); });
@@ -115,7 +112,7 @@ string SummarySheet::folded() const {
   string text;
   for (size_t k = 0; k < columns_.size(); ++k) {
     const Column& column = columns_[k];
-    if (column.parameter || column.first.empty() || std::ranges::find(shown_, k) != shown_.end()) continue;
+    if (column.parameter || column.first.empty() || contains(shown_, k)) continue;
     const Cell cell = column.is_text ? Cell{column.first} : cell_of(column.first);
     text += fmt::format("{}{}: {}", text.empty() ? "The same in all runs: " : "; ", column.label,
                         cell.is_number() ? fmt::format("{:.5g}", cell.number) : cell.text);
@@ -133,7 +130,7 @@ void SummarySheet::write_sheet_heads() {
 
   sheet_.set_head_row(head_row_);
   // The column names of a table must differ in more than the case of letters, and must not be long.
-  std::map<string, int> taken;
+  map<string, int> taken;
   for (size_t k = 0; k < shown_.size(); ++k) {
     const Column& column = columns_[shown_[k]];
     string head = column.label.substr(0, longest_name - 8), lower = head;
@@ -186,13 +183,12 @@ void SummarySheet::finish() {
 
 /// Tints rows that are not `done`, in any order of sorting.
 void SummarySheet::mark_rows(lxw_row_t last_row, lxw_col_t last_column) {
-  const auto status = std::ranges::find_if(shown_, [&](auto k) { return columns_[k].name == "status"; });
+  const auto status = ranges::find_if(shown_, [&](auto k) { return columns_[k].name == "status"; });
   if (status == shown_.end()) return;
 
   char column[LXW_MAX_COL_NAME_LENGTH];
   lxw_col_to_name(column, to_column(status - shown_.begin()), 1);
-  for (const auto& [text, style] :
-       {std::pair("doubtful", CellStyle::doubtful), std::pair("failed", CellStyle::failed)}) {
+  for (const auto& [text, style] : {pair("doubtful", CellStyle::doubtful), pair("failed", CellStyle::failed)}) {
     string formula = fmt::format("={}{}=\"{}\"", column, first_row() + 1, text);
 
     lxw_conditional_format rule{};
@@ -227,7 +223,7 @@ unique_ptr<OutputFile> SummarySheet::take_table() {
 }
 
 size_t SummarySheet::place_of(size_t column) const {
-  const auto found = std::ranges::find(shown_, column);
+  const auto found = ranges::find(shown_, column);
   return found == shown_.end() ? 0 : size_t(found - shown_.begin());
 }
 

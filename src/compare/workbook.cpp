@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <new>
 
@@ -143,7 +141,7 @@ void Worksheet::text(size_t row, size_t column, string_view text, CellStyle styl
 
 void Worksheet::number(size_t row, size_t column, double value, CellStyle style, const NumberLook* look) {
   lxw_format* const how = style == CellStyle::plain && look == nullptr ? nullptr : format(style, look);
-  if (!std::isfinite(value)) {
+  if (!isfinite(value)) {
     if (how != nullptr) must(worksheet_write_blank(sheet_, to_row(row), to_column(column), how));
     return;
   }
@@ -179,7 +177,7 @@ void Worksheet::set_head_row(size_t row, size_t lines) {
 
 void Worksheet::note(size_t row, size_t columns, string_view text, double width) {
   const string shown = shortened(text, longest_text);
-  const double lines = std::ceil(1.1 * double(letters_of(shown)) / max(width, 1.0));
+  const double lines = ceil(1.1 * double(letters_of(shown)) / max(width, 1.0));
   worksheet_set_row(sheet_, to_row(row), clamp(lines, 1.0, 25.0) * line_height, nullptr);
   if (columns < 2)
     must(worksheet_write_string(sheet_, to_row(row), 0, shown.c_str(), format(CellStyle::wrapped)));
@@ -232,7 +230,7 @@ void Worksheet::set_paper() {
 
 void Worksheet::print_wide() {
   set_paper();
-  const double pages = std::ceil(total_ / characters_across);
+  const double pages = ceil(total_ / characters_across);
   worksheet_fit_to_pages(sheet_, uint16_t(clamp(pages, 1.0, 1000.0)), 0);
 }
 

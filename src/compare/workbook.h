@@ -3,10 +3,7 @@
 // Streamed sheets take no memory for their rows.
 #include <xlsxwriter.h>
 
-#include <limits>
 #include <list>
-#include <map>
-#include <utility>
 
 #include "compare/number_look.h"
 #include "compare/workbook_files.h"
@@ -64,7 +61,7 @@ class CellFormats {
  private:
   string title_;
   lxw_workbook* book_;
-  std::map<std::pair<CellStyle, string>, lxw_format*> made_;
+  map<pair<CellStyle, string>, lxw_format*> made_;
 };
 
 class Worksheet {

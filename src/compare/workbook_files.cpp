@@ -8,7 +8,6 @@
 #include <unistd.h>
 #include <xlsxwriter.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -92,7 +91,7 @@ int close_file(void* cookie) {
 struct Entry {
   uint64_t size;
   uint32_t crc;
-  friend bool operator<(const Entry& a, const Entry& b) { return std::tie(a.size, a.crc) < std::tie(b.size, b.crc); }
+  friend bool operator<(const Entry& a, const Entry& b) { return tie(a.size, a.crc) < tie(b.size, b.crc); }
   friend bool operator==(const Entry& a, const Entry& b) = default;
 };
 

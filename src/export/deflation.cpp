@@ -6,8 +6,6 @@
 
 #include <isa-l/igzip_lib.h>
 
-#include <algorithm>
-
 #include "numerics/processor.h"
 #include "std.h"
 

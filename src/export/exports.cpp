@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "export/film.h"
 #include "export/flights_file.h"
 #include "export/frame_files.h"
@@ -93,7 +90,7 @@ struct Exports::Impl {
   }
 
   bool waits() const {
-    return std::ranges::any_of(output_kinds(), [&](const OutputKind& kind) {
+    return any_of(output_kinds(), [&](const OutputKind& kind) {
       const WriterKind* writer = writer_to_open(kind);
       return writer != nullptr && writer->waits_for_motion(scene);
     });
@@ -119,7 +116,7 @@ struct Exports::Impl {
     return files;
   }
   bool keeps(const OutputKind& kind) const {
-    return std::ranges::any_of(kept, [&](const FileRecord& file) { return output_of(file.name) == &kind; });
+    return any_of(kept, [&](const FileRecord& file) { return output_of(file.name) == &kind; });
   }
   bool draws_plots() const {
     return scene.output.plots &&
@@ -133,7 +130,7 @@ struct Exports::Impl {
     for (const OutputPart::OpenWriter& writer : tables.writers()) open.push_back(&writer);
     if (drawings)
       for (const OutputPart::OpenWriter& writer : drawings->writers()) open.push_back(&writer);
-    std::ranges::sort(open, {}, [](const auto* writer) { return writer->kind; });
+    ranges::sort(open, {}, [](const auto* writer) { return writer->kind; });
     vector<Writer*> writers;
     for (const OutputPart::OpenWriter* writer : open) writers.push_back(writer->writer.get());
     return writers;
@@ -172,7 +169,7 @@ bool Exports::goes_on() const {
 }
 
 Checkpoint Exports::take_interrupted() {
-  return std::exchange(*impl_->interrupted, {});
+  return exchange(*impl_->interrupted, {});
 }
 
 bool Exports::replaces_interrupted() const {

@@ -64,7 +64,7 @@ FilmEncoding gif(const VideoOutput& video, const Image& picture) {
 FilmEncoding webp(const VideoOutput& video, const Image& picture) {
   FfmpegRun run = raw_input(video, picture.channels == 4 ? "rgba" : "rgb24", picture.width, picture.height);
   const int quality = (100 * (largest_crf - video.crf) + largest_crf / 2) / largest_crf;
-  add(run, {"-c:v", "libwebp_anim", "-pix_fmt", "bgra", "-quality", std::to_string(quality)});
+  add(run, {"-c:v", "libwebp_anim", "-pix_fmt", "bgra", "-quality", to_string(quality)});
   add_reproducible(run);
   add(run, {"-loop", "0", "-f", "webp", "file:film.webp"});
   return {{std::move(run)}, "film.webp"};
@@ -87,8 +87,7 @@ FilmEncoding film_encoding(const VideoOutput& video, const Image& picture) {
 FfmpegRun h264_output(int crf) {
   FfmpegRun run;
   add_reproducible(run);
-  add(run,
-      {"-c:v", "libx264", "-preset", "veryfast", "-crf", std::to_string(crf), "-pix_fmt", "yuv420p", "-threads", "4"});
+  add(run, {"-c:v", "libx264", "-preset", "veryfast", "-crf", to_string(crf), "-pix_fmt", "yuv420p", "-threads", "4"});
   add(run, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv",
             "-chroma_sample_location", "center"});
   add(run, {"-movflags", "+faststart", "-f", "mp4", string("file:") + h264_file});

@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
 
@@ -112,8 +111,7 @@ void FilmFile::send(const void* bytes, size_t size) {
       fail_with("ffmpeg ended too early: " + complaint(ffmpeg_->errors()));
     case Child::Sent::stuck:
       ffmpeg_->kill();
-      fail_with("ffmpeg accepted no picture for " + std::to_string(patience_.each.count() / 1000) +
-                " s and was stopped");
+      fail_with("ffmpeg accepted no picture for " + to_string(patience_.each.count() / 1000) + " s and was stopped");
   }
 }
 
@@ -127,9 +125,9 @@ void FilmFile::end_run() {
   const optional<int> code = ffmpeg_->wait(patience_.end);
   if (!code) {
     ffmpeg_->kill();
-    fail_with("ffmpeg did not end within " + std::to_string(patience_.end.count() / 1000) + " s and was stopped");
+    fail_with("ffmpeg did not end within " + to_string(patience_.end.count() / 1000) + " s and was stopped");
   }
-  if (*code != 0) fail_with("ffmpeg failed with code " + std::to_string(*code) + ": " + complaint(ffmpeg_->errors()));
+  if (*code != 0) fail_with("ffmpeg failed with code " + to_string(*code) + ": " + complaint(ffmpeg_->errors()));
 }
 
 void FilmFile::complete(const string& made, uint64_t frames, double fps) {
@@ -138,7 +136,7 @@ void FilmFile::complete(const string& made, uint64_t frames, double fps) {
   const uint64_t found = film_format(made) == FilmFormat::webp ? webp_frames(workshop(), made, fps).value_or(frames)
                                                                : counted_frames(tools_, workshop_.get(), made, error);
   if (!error.empty()) fail_with(error);
-  if (found != frames) fail_with("ffmpeg wrote " + std::to_string(found) + " of " + std::to_string(frames) + " frames");
+  if (found != frames) fail_with("ffmpeg wrote " + to_string(found) + " of " + to_string(frames) + " frames");
 
   const auto stored = read_record(workshop_.get(), made);
   if (!stored) fail("read", place_, record_.name);

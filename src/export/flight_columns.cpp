@@ -7,7 +7,6 @@
 
 #include <isa-l/igzip_lib.h>
 
-#include <algorithm>
 #include <cstring>
 
 #include "std.h"
@@ -43,7 +42,7 @@ uint32_t ColumnWriter::append(span<const uint8_t> bytes, vector<char>& to) {
     to.resize(begin + packed);
     return uint32_t(packed);
   }
-  std::ranges::copy(bytes, to.begin() + ptrdiff_t(begin));
+  ranges::copy(bytes, to.begin() + ptrdiff_t(begin));
   return 0;
 }
 
@@ -148,7 +147,7 @@ bool ColumnReader::unpack(span<const char> packed) {
 
 bool ColumnReader::at_end() const {
   return !damaged_ && bit_ == bit_end_ &&
-         std::ranges::all_of(columns_, [](const Rest& column) { return column.at == column.bytes.size(); });
+         all_of(columns_, [](const Rest& column) { return column.at == column.bytes.size(); });
 }
 
 uint8_t ColumnReader::byte(Column column) {

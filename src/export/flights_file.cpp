@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstring>
-#include <limits>
-#include <utility>
 
 #include "export/flights_format.h"
 #include "physics/world.h"
@@ -130,7 +127,7 @@ void FlightsFile::count() {
   ++in_block_;
   ++entries_;
   if (columns_.size() < block_size) return;
-  end_block(of_entries, columns_, std::exchange(in_block_, 0), block_time_);
+  end_block(of_entries, columns_, exchange(in_block_, 0), block_time_);
   if (file_ && bytes_ >= next_key_) put_key();
   block_time_ = codec_.from();
   codec_.begin_block(block_time_);
@@ -166,7 +163,7 @@ void FlightsFile::put_key() {
   vector<const PathPiece*> pieces;
   for (const PathPiece& piece : codec_.present())
     if (piece.body != no_entity) pieces.push_back(&piece);
-  std::ranges::stable_sort(pieces, {}, [](const PathPiece* piece) { return piece->from; });
+  ranges::stable_sort(pieces, {}, [](const PathPiece* piece) { return piece->from; });
 
   PathCodec codec(world_);
   ColumnWriter columns;
@@ -178,7 +175,7 @@ void FlightsFile::put_key() {
     codec.write(columns, *pieces[k], nullptr, world_);
     ++entries;
     if (columns.size() < block_size && k + 1 < pieces.size()) continue;
-    end_block(std::exchange(kind, more_of_key), columns, std::exchange(entries, 0), time);
+    end_block(exchange(kind, more_of_key), columns, exchange(entries, 0), time);
     if (!file_) return;
     codec.begin_block(time = codec.from());
   }

@@ -4,9 +4,7 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
-#include <utility>
 
 #include "export/flights_file.h"
 #include "export/flights_format.h"
@@ -133,8 +131,7 @@ FlightsReader::Block FlightsReader::take_block() {
   const auto checksum = take<uint32_t>();
   block.time = take<double>();
 
-  if (block.kind > more_of_key || bytes > largest_block || bytes > end_ - place_ - block_head ||
-      !std::isfinite(block.time))
+  if (block.kind > more_of_key || bytes > largest_block || bytes > end_ - place_ - block_head || !isfinite(block.time))
     refuse("it is damaged");
 
   if (block.kind == of_entries) {
@@ -178,16 +175,16 @@ void FlightsReader::read_entry(Recorded& recorded) {
 
 void FlightsReader::check(const CollisionMark& collision) const {
   const bool known = collision.kind <= CollisionKind::taut;
-  if (!known || !has_collisions_ || !std::isfinite(collision.time)) refuse("it is damaged");
+  if (!known || !has_collisions_ || !isfinite(collision.time)) refuse("it is damaged");
 }
 
 void FlightsReader::check(const PathPiece& piece) const {
-  const auto finite = [](const DoubleDouble& t) { return std::isfinite(t.hi + t.lo); };
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
+  const auto finite = [](const DoubleDouble& t) { return isfinite(t.hi + t.lo); };
+  const auto positive = [](double x) { return x > 0 && isfinite(x); };
 
-  bool right = std::isfinite(piece.from) && finite(piece.start) && finite(piece.until);
+  bool right = isfinite(piece.from) && finite(piece.start) && finite(piece.until);
   for (const Vec3* v : {&piece.x, &piece.v, &piece.a, &piece.kick}) right = right && v->allFinite();
-  right = right && std::isfinite(piece.fade) && std::isfinite(piece.rounding) && piece.part_of != piece.body;
+  right = right && isfinite(piece.fade) && isfinite(piece.rounding) && piece.part_of != piece.body;
 
   // What only some pieces have.
   if (piece.joint)

@@ -1,8 +1,5 @@
 // Estimates rows, pictures, bytes and wall time from the scene alone, with typical constants.
 // The time of the simulation itself is not included.
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "export/forecast.h"
 #include "export/picture_streams.h"
@@ -64,12 +61,12 @@ double pixels(Size size) {
 }
 
 double png_bytes(double area, double bodies) {
-  return area * min(png_pixel_bytes + png_body_bytes * std::sqrt(bodies), png_most_bytes);
+  return area * min(png_pixel_bytes + png_body_bytes * sqrt(bodies), png_most_bytes);
 }
 
 /// Of one picture.
 double film_bytes(const VideoOutput& video, double area, double bodies) {
-  const double of_bodies = min(bodies * film_body_bytes * std::sqrt(area), area * film_most_bytes);
+  const double of_bodies = min(bodies * film_body_bytes * sqrt(area), area * film_most_bytes);
   const double at_18 = film_picture_bytes + area * film_pixel_bytes + of_bodies;
   const double by_crf = std::exp2((18 - video.crf) / 6.0);
   switch (film_format(video.file).value_or(FilmFormat::mp4)) {

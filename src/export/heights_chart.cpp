@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "export/bodies.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -37,12 +33,12 @@ void HeightsChart::add(double time, span<const double> heights) {
   if (!wants(time)) return;
   ++instants_;
   for (size_t body = 0; body < lines_.size(); ++body)
-    if (std::isfinite(heights[body])) lines_[body].add(time, heights[body]);
+    if (isfinite(heights[body])) lines_[body].add(time, heights[body]);
   if (!lines_.empty()) return;
 
   // More bodies than lines: the spread of their heights.
   heights_.clear();
-  std::copy_if(heights.begin(), heights.end(), std::back_inserter(heights_), [](double y) { return std::isfinite(y); });
+  std::copy_if(heights.begin(), heights.end(), std::back_inserter(heights_), [](double y) { return isfinite(y); });
   if (heights_.empty()) return;
 
   const auto last = double(heights_.size() - 1);

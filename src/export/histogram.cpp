@@ -1,7 +1,6 @@
 // Steps are drawn as a band whose ends jump, which needs no form of its own.
 #include "export/histogram.h"
 
-#include <cmath>
 #include <numeric>
 
 #include "std.h"
@@ -13,7 +12,7 @@ uint64_t Histogram::total() const {
 }
 
 int intervals_for(uint64_t values) {
-  return int(std::ceil(2 * std::cbrt(double(values))));
+  return int(ceil(2 * std::cbrt(double(values))));
 }
 
 vector<PlotPoint> stairs(double width, const vector<double>& lower, const vector<double>& upper) {

@@ -1,8 +1,5 @@
 #include "export/output_part.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -13,16 +10,15 @@ void OutputPart::add(size_t kind, unique_ptr<Writer> writer, span<const Ticks> t
 }
 
 bool OutputPart::due(const OpenWriter& open) const {
-  return std::ranges::any_of(open.timeline_streams, [&](int stream) { return timeline_.due(stream).has_value(); });
+  return any_of(open.timeline_streams, [&](int stream) { return timeline_.due(stream).has_value(); });
 }
 
 bool OutputPart::needs_state() const {
-  return std::ranges::any_of(writers_, [&](const OpenWriter& open) { return due(open); });
+  return any_of(writers_, [&](const OpenWriter& open) { return due(open); });
 }
 
 bool OutputPart::needs_contacts() const {
-  return std::ranges::any_of(writers_,
-                             [&](const OpenWriter& open) { return due(open) && open.writer->needs_contacts(); });
+  return any_of(writers_, [&](const OpenWriter& open) { return due(open) && open.writer->needs_contacts(); });
 }
 
 void OutputPart::record(span<const Collision> collisions) const {

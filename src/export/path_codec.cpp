@@ -13,11 +13,7 @@
 // that one's.
 #include "export/path_codec.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <limits>
-#include <utility>
 
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -329,7 +325,7 @@ void PathCodec::code(Side<Columns>& side, PathPiece& piece, PredictedImpact& imp
 /// The first double at which a piece holds: that of its start, but none before the entry before.
 double PathCodec::usual_from(const PathPiece& piece) const {
   const double hi = piece.start.hi;
-  return max(piece.start.lo > 0 ? std::nextafter(hi, numeric_limits<double>::infinity()) : hi, from_);
+  return max(piece.start.lo > 0 ? std::nextafter(hi, infinity) : hi, from_);
 }
 
 /// A body's mass and radius, with its first piece. Most often they are those of the body before.
@@ -502,7 +498,7 @@ double PathCodec::contact_time(const PathPiece& a, const PathPiece& b, const Dou
   const double closing = product(d, w);
   const double square = product(w, w);
   const double gap = product(d, d) - sizes * sizes;
-  return gap / (std::sqrt(closing * closing - square * gap) - closing);
+  return gap / (sqrt(closing * closing - square * gap) - closing);
 }
 
 /// The impact of a body that is at its place, all but the restitution.
@@ -512,7 +508,7 @@ void PathCodec::predict_impact(const PathPiece& piece, PredictedImpact& impact) 
   impact.v = velocity_at(before, piece.start);
   impact.other_v = velocity_at(other, piece.start);
   const Vec3 d = place_at(other, piece.start) - piece.x;
-  impact.normal = d / std::sqrt(product(d, d));
+  impact.normal = d / sqrt(product(d, d));
   impact.approach = -product(impact.other_v - impact.v, impact.normal);
   impact.mass = mass_[piece.body];
   impact.other_mass = mass_[impact.other];

@@ -2,8 +2,6 @@
 // A film without pictures and a sheet that is too large are refused here, before the run.
 #include "export/picture_streams.h"
 
-#include <algorithm>
-
 #include "export/sheet.h"
 #include "files/export_error.h"
 #include "scene/film_format.h"

@@ -1,6 +1,5 @@
 #pragma once
 // What a plot shows.
-#include <limits>
 
 #include "std.h"
 

@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "std.h"
 #include "yaml/letters.h"
 
@@ -23,9 +19,9 @@ constexpr int most_x_ticks = 7, most_y_ticks = 6;
 
 /// The least and the greatest of the values taken.
 struct ValueRange {
-  double low = numeric_limits<double>::infinity(), high = -low;
+  double low = infinity, high = -low;
   void take(double value) {
-    if (!std::isfinite(value)) return;
+    if (!isfinite(value)) return;
     low = min(low, value);
     high = max(high, value);
   }
@@ -34,7 +30,7 @@ struct ValueRange {
 /// The text of count * 10^power.
 string decimal_text(int64_t count, int power) {
   if (count == 0) return "0";
-  if (power >= 0) return fmt::format("{}", count * int64_t(std::pow(10, power)));
+  if (power >= 0) return fmt::format("{}", count * int64_t(pow(10, power)));
   const string digits = fmt::format("{:0{}}", std::abs(count), 1 - power);
   const size_t point = digits.size() - size_t(-power);
   return (count < 0 ? "-" : "") + digits.substr(0, point) + "." + digits.substr(point);
@@ -49,19 +45,19 @@ string superscript(int exponent) {
 
 /// A multiple of 3, so that ticks have few digits. 0 from a hundredth to a hundred thousand.
 int exponent_of(double largest) {
-  const int power = int(std::floor(std::log10(largest)));
-  return power >= -2 && power < 5 ? 0 : 3 * int(std::floor(power / 3.0));
+  const int power = int(floor(std::log10(largest)));
+  return power >= -2 && power < 5 ? 0 : 3 * int(floor(power / 3.0));
 }
 
 }  // namespace
 
 double RoundStep::value() const {
   // A quotient of exact numbers has one rounding.
-  return power < 0 ? digit / std::pow(10, -power) : digit * std::pow(10, power);
+  return power < 0 ? digit / pow(10, -power) : digit * pow(10, power);
 }
 
 RoundStep round_step(double least) {
-  RoundStep step{1, int(std::floor(std::log10(least)))};
+  RoundStep step{1, int(floor(std::log10(least)))};
   for (const int digit : {1, 2, 5}) {
     step.digit = digit;
     if (step.value() >= least) return step;
@@ -100,7 +96,7 @@ size_t PlotAxis::tick_letters() const {
 PlotAxis log_axis(double low, double high) {
   if (!(low <= high)) low = high = 1;
   constexpr double margin = 0.15;  // of a power of ten
-  PlotAxis axis{std::pow(10, std::floor(std::log10(low) - margin)), std::pow(10, std::ceil(std::log10(high) + margin))};
+  PlotAxis axis{pow(10, floor(std::log10(low) - margin)), pow(10, ceil(std::log10(high) + margin))};
   axis.logarithmic = true;
   return axis;
 }
@@ -126,7 +122,7 @@ PlotAxis linear_axis(double low, double high, int most_ticks, double least_step)
   const RoundStep step = round_step(max((high - low) / most_ticks, least_step));
   const double slack = (high - low) * 1e-9;
 
-  for (auto count = int64_t(std::ceil((low - slack) / step.value()));; ++count) {
+  for (auto count = int64_t(ceil((low - slack) / step.value()));; ++count) {
     const double at = double(count) * step.value();
     if (!(at <= high + slack)) break;
     axis.ticks.push_back({at, decimal_text(count * step.digit, step.power - axis.exponent)});

@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "export/plot_axis.h"
 #include "std.h"
 #include "yaml/joined.h"
@@ -83,14 +79,14 @@ class PlotLabels {
     const auto covers = [&](const auto& p) {
       return std::abs(p.first - across) < 0.1 && std::abs(p.second - up) < 0.03;
     };
-    if (std::ranges::any_of(taken_, covers)) return false;
+    if (any_of(taken_, covers)) return false;
     taken_.emplace_back(across, up);
     return true;
   }
 
  private:
   const PlotAxes& axes_;
-  vector<std::pair<double, double>> taken_;
+  vector<pair<double, double>> taken_;
 };
 
 /// Appends blocks of data, and the layers that draw them.

@@ -4,8 +4,6 @@
 
 #include <isa-l/crc.h>
 
-#include <algorithm>
-
 #include "files/export_error.h"
 #include "std.h"
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "export/gnuplot.h"
 #include "physics/energy.h"
 #include "scene/output_kinds.h"

@@ -1,8 +1,6 @@
 // Assembles the contact sheet in memory. Its layout is checked in the constructor, before the run starts.
 #include "export/sheet.h"
 
-#include <algorithm>
-
 #include "files/export_error.h"
 #include "scene/sheet_layout.h"
 #include "std.h"

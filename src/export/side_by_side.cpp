@@ -6,8 +6,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include "files/folders.h"
@@ -127,8 +125,7 @@ SideBySide::SideBySide(const FilePlace& place, const string& name, vector<FilmTi
 
 void SideBySide::complete() {
   const Grid grid = grid_of(tiles_, facts_);
-  const FilmFacts& fastest =
-      *std::ranges::max_element(facts_, [](const auto& a, const auto& b) { return is_faster(b, a); });
+  const FilmFacts& fastest = *ranges::max_element(facts_, [](const auto& a, const auto& b) { return is_faster(b, a); });
   double start = tiles_.front().from;
   for (const FilmTile& tile : tiles_) start = min(start, tile.from);
   if (!copy_font(font_, file_.workshop())) file_.fail_with("the font of its labels cannot be read: " + font_);

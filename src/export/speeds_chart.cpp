@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "export/bodies.h"
 #include "export/chart.h"
 #include "export/plot_axis.h"
@@ -37,10 +34,9 @@ void SpeedsChart::add(const State& end) {
 
 Histogram SpeedsChart::histogram() const {
   Histogram bars;
-  const double fastest = speeds_.empty() ? 0 : *std::ranges::max_element(speeds_);
+  const double fastest = speeds_.empty() ? 0 : *ranges::max_element(speeds_);
   // A round width, from 0.7 to 1.8 times the one sought.
-  if (fastest > 0)
-    bars.width = round_step(fastest / min(intervals_for(speeds_.size()), most_bars) / std::sqrt(2)).value();
+  if (fastest > 0) bars.width = round_step(fastest / min(intervals_for(speeds_.size()), most_bars) / sqrt(2)).value();
   bars.counts.resize(size_t(fastest / bars.width) + 1);
   for (const double speed : speeds_) ++bars.counts[min(size_t(speed / bars.width), bars.counts.size() - 1)];
   return bars;
@@ -55,7 +51,7 @@ double SpeedsChart::maxwell(double speed, double width) const {
   const double thermal = 2 * energy_.kinetic() / (dimensions * double(speeds_.size()));
   double bodies = 0;
   for (const auto& [mass, count] : masses_)
-    bodies += double(count) * width * maxwell_density(speed, dimensions, std::sqrt(thermal / mass));
+    bodies += double(count) * width * maxwell_density(speed, dimensions, sqrt(thermal / mass));
   return bodies;
 }
 

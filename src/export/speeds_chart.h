@@ -1,6 +1,5 @@
 #pragma once
 // The chart of the bodies' speeds at the end of a run, beside Maxwell's distribution.
-#include <map>
 
 #include "export/histogram.h"
 #include "physics/maxwell.h"
@@ -36,8 +35,8 @@ class SpeedsChart {
   PlotSeries maxwell_curve(const Histogram& bars) const;
 
   const Scene& scene_;
-  vector<double> speeds_;            // m/s
-  std::map<double, size_t> masses_;  // kg, and the number of bodies
+  vector<double> speeds_;       // m/s
+  map<double, size_t> masses_;  // kg, and the number of bodies
   EnergyByDirection energy_;
 };
 

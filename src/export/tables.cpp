@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "export/bodies.h"
 #include "files/manifest.h"
 #include "files/summary_columns.h"
@@ -153,7 +149,7 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   const BodyRange* range = &scene_.roster.range_of(part.first);
   for (Entity body = part.first; body < part.first + part.count; ++body, ++motion) {
     while (body >= range->first + range->count) ++range;
-    if (!std::isfinite(motion->position.x())) continue;
+    if (!isfinite(motion->position.x())) continue;
 
     char* to = file_.room(number_size + range->name.size() + member_size + motion_size + 2);
     to = put_text(to, time_cell);
@@ -168,7 +164,7 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
 void TrajectoryTable::write_wide(const Part& part, const Motion* motion) {
   if (part.first == 0) file_.written(put_number(file_.room(number_size), part.time));
   for (Entity i = 0; i < part.count; ++i, ++motion) {
-    if (std::isfinite(motion->position.x()))
+    if (isfinite(motion->position.x()))
       file_.written(put_motion(file_.room(motion_size), motion->position, motion->velocity));
     else
       file_.write(",,,,,,");

@@ -1,8 +1,6 @@
 // Columns are closed as x advances, so that memory depends on their number alone.
 #include "export/thinned_line.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {

@@ -3,11 +3,7 @@
 // Intervals are therefore recovered as decimals or as one over a whole number.
 #include "export/timeline.h"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "numerics/whole.h"
 #include "std.h"
@@ -72,7 +68,7 @@ Ratio as_ratio(double interval) {
 }  // namespace
 
 Ticks Ticks::every(double interval, double duration) {
-  if (!(interval > 0) || !(duration >= 0) || !std::isfinite(duration))
+  if (!(interval > 0) || !(duration >= 0) || !isfinite(duration))
     throw std::invalid_argument("Ticks::every: the interval must be positive, the duration finite and not negative");
   Ticks ticks;
   const Ratio ratio = as_ratio(interval);
@@ -93,7 +89,7 @@ Ticks Ticks::every(double interval, double duration) {
 }
 
 Ticks Ticks::rate(double per_second, double from, double until) {
-  if (!(per_second > 0) || !std::isfinite(per_second))
+  if (!(per_second > 0) || !isfinite(per_second))
     throw std::invalid_argument("Ticks::rate: the rate must be positive and finite");
   Ticks ticks;
   ticks.denominator_ = per_second;
@@ -108,7 +104,7 @@ Ticks Ticks::rate(double per_second, double from, double until) {
 
 // a/b + i c/d / fps = (a d fps + i b c) / (b d fps), with a/b = from and c/d = speed.
 Ticks Ticks::film(double per_second, double speed, double from, double until) {
-  if (!(per_second > 0) || !std::isfinite(per_second) || !(speed > 0) || !std::isfinite(speed))
+  if (!(per_second > 0) || !isfinite(per_second) || !(speed > 0) || !isfinite(speed))
     throw std::invalid_argument("Ticks::film: the rate and the speed must be positive and finite");
   Ticks ticks;
   const Ratio start = as_ratio(from), pace = as_ratio(speed);
@@ -167,7 +163,7 @@ int Ticks::decimals() const {
   for (int i = 0; i <= most; ++i, power *= 10)
     if (is_whole(at(first_) * power) && is_whole(at(last_) * power) && (count() < 2 || is_whole(interval * power)))
       return i;
-  return count() < 2 ? most : clamp(1 - int(std::floor(std::log10(interval))), 0, 17);
+  return count() < 2 ? most : clamp(1 - int(floor(std::log10(interval))), 0, 17);
 }
 
 Timeline::Timeline(double duration) : duration_(duration) {}

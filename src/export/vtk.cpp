@@ -6,7 +6,6 @@
 #include <nettle/base64.h>
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "export/bodies.h"

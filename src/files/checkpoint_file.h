@@ -1,6 +1,5 @@
 #pragma once
 // What an interrupted run needs to go on: a file beside its temporary ones, which an ordinary start removes with them.
-#include <utility>
 
 #include "files/file_place.h"
 #include "files/summary.h"

@@ -1,14 +1,12 @@
 #pragma once
 // A queue of work for background threads: items are filled by the sender and used by the threads.
 // A fixed number of items is reused, however many are sent.
-#include <algorithm>
 #include <condition_variable>
 #include <csignal>
 #include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "std.h"
 

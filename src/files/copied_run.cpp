@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <map>
 
 #include "files/folder_names.h"
 #include "files/manifest.h"
@@ -52,7 +51,7 @@ void copy_run(const string& from, const string& to) {
   OpenFolder folder(to, Durability::deferred);
   remove_files_of_run(folder.place());
   SeriesFolders from_series(source.get());
-  std::map<const OutputKind*, FilePlace> to_series;
+  map<const OutputKind*, FilePlace> to_series;
 
   for (const FileRecord& record : manifest->files) {
     const FileSpot spot = from_series.spot(record.name);

@@ -3,7 +3,6 @@
 // and text that no spreadsheet runs.
 // Lines end in LF.
 #include <charconv>
-#include <cmath>
 
 #include "files/output_file.h"
 #include "std.h"
@@ -15,7 +14,7 @@ inline constexpr size_t number_size = 24;
 
 /// Writes a number's cell and returns its end. Minus zero is written as 0, and a non-finite value as an empty cell.
 inline char* put_number(char* to, double value) {
-  if (!std::isfinite(value)) return to;
+  if (!isfinite(value)) return to;
   return std::to_chars(to, to + number_size, value == 0 ? 0.0 : value).ptr;
 }
 inline char* put_number(char* to, uint64_t value) {

@@ -2,7 +2,6 @@
 // in two folders may have one stem, and an edited file has another hash.
 #include "files/earlier_run.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "files/checkpoint_file.h"
@@ -20,9 +19,9 @@ namespace {
 string entry_of_no_run(const FoundFolder& found) {
   const vector<string> series = series_folder_names();
   const auto is_foreign = [&](const string& name) {
-    return name != "scene.yaml" && !is_part_name(name) && std::ranges::find(series, name) == series.end();
+    return name != "scene.yaml" && !is_part_name(name) && !contains(series, name);
   };
-  const auto entry = std::ranges::find_if(found.names, is_foreign);
+  const auto entry = ranges::find_if(found.names, is_foreign);
   return entry == found.names.end() ? "" : *entry;
 }
 

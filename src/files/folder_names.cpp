@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 
 #include "std.h"
@@ -37,7 +36,7 @@ optional<vector<string>> read_names(int folder) {
   closedir(stream);
   errno = error;
   if (error != 0) return nullopt;
-  std::ranges::sort(names);
+  ranges::sort(names);
   return names;
 }
 
@@ -84,8 +83,7 @@ void remove_file(const FilePlace& place, const string& name) {
 
 bool is_plain_name(string_view name) {
   if (name.empty() || name.size() > 200 || name.front() == '.') return false;
-  return std::ranges::none_of(
-      name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
+  return none_of(name, [](char c) { return c == '/' || c == '\\' || static_cast<unsigned char>(c) < ' ' || c == 127; });
 }
 
 string part_name(string_view name) {

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -151,9 +150,9 @@ string manifest_text(const Scene& scene, const Summary& summary, const RunFacts&
   json["peak_memory_bytes"] = facts.peak_memory;
 
   for (const Measured& measure : facts.measures)
-    json["measures"][measure.name] = !measure.text.empty()          ? Json(valid_utf8(measure.text))
-                                     : std::isfinite(measure.value) ? Json(measure.value)
-                                                                    : Json();
+    json["measures"][measure.name] = !measure.text.empty()     ? Json(valid_utf8(measure.text))
+                                     : isfinite(measure.value) ? Json(measure.value)
+                                                               : Json();
   for (const LeftOut& file : facts.left_out) json["left_out"][file.name] = file.why;
   json["status"] = summary.status;
   for (const Warning& warning : summary.warnings)

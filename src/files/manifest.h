@@ -1,6 +1,5 @@
 #pragma once
 // manifest.json: the files that a run wrote, and its request. It is written last and marks a folder as complete.
-#include <map>
 
 #include "files/output_file.h"
 #include "files/summary.h"
@@ -25,7 +24,7 @@ struct Manifest {
   vector<FileRecord> files;
   string scene_file{};  // the file name, without a folder
   /// As in MadeFrom.
-  std::map<string, string> expressions{};
+  map<string, string> expressions{};
   SceneOrigin origin{};
   /// Files of the outputs that were given up.
   vector<LeftOut> left_out{};

@@ -2,7 +2,6 @@
 
 #include <sched.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "std.h"
@@ -23,12 +22,12 @@ size_t processors() {
 
 void share_processors(size_t jobs) {
   processes = max<size_t>(jobs, 1);
-  setenv("LP_NUM_THREADS", std::to_string(share_of_processors()).c_str(), 0);
+  setenv("LP_NUM_THREADS", to_string(share_of_processors()).c_str(), 0);
 }
 
 void use_threads(size_t count) {
   threads = count;
-  setenv("LP_NUM_THREADS", std::to_string(count).c_str(), 1);
+  setenv("LP_NUM_THREADS", to_string(count).c_str(), 1);
 }
 
 size_t share_of_processors() {

@@ -8,9 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <set>
 
 #include "files/folder_names.h"
 #include "files/folders.h"
@@ -27,7 +25,7 @@ void sync_all(const FilePlace& place, Durability durability) {
 }
 
 /// Moves the files of a series from their temporary folder to their final one.
-void name_series(const FilePlace& place, const string& part, const std::set<string>& names) {
+void name_series(const FilePlace& place, const string& part, const set<string>& names) {
   const string series = name_of_part(part);
   const Descriptor from = open_folder(place.folder, part, false);
   if (!from) return;
@@ -37,14 +35,14 @@ void name_series(const FilePlace& place, const string& part, const std::set<stri
 }
 
 void name_parts(const FilePlace& place, const Manifest& next) {
-  std::set<string> names;
+  set<string> names;
   for (const FileRecord& file : next.files) names.insert(file.name);
   const vector<string> series = series_folder_names();
   for (const string& part : folder_names(place.folder)) {
     if (!is_part_name(part) || part == next_manifest) continue;
     const string name = name_of_part(part);
     if (names.contains(name)) give_name(place.folder, part, place, name);
-    if (std::ranges::find(series, name) != series.end()) name_series(place, part, names);
+    if (contains(series, name)) name_series(place, part, names);
   }
 }
 
@@ -52,7 +50,7 @@ void name_parts(const FilePlace& place, const Manifest& next) {
 void remove_former(const FilePlace& place, const Manifest& next) {
   const auto former = read_manifest(place.folder, manifest_name);
   if (!former) return;
-  std::set<string_view> stays;
+  set<string_view> stays;
   for (const FileRecord& file : next.files) stays.insert(file.name);
   vector<string> names;
   for (const FileRecord& file : former->files)

@@ -6,11 +6,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <set>
 #include <tuple>
-#include <utility>
 
 #include "files/folder_names.h"
 #include "files/folders.h"
@@ -30,7 +27,7 @@ namespace {
 template <typename Check>
 bool all_files(int folder, const Manifest& manifest, const Check& check) {
   SeriesFolders folders(folder);
-  return std::ranges::all_of(manifest.files, [&](const FileRecord& file) {
+  return all_of(manifest.files, [&](const FileRecord& file) {
     const FileSpot spot = folders.spot(file.name);
     return spot.folder >= 0 && check(spot, file);
   });
@@ -46,16 +43,16 @@ bool has_hash(const FileSpot& spot, const FileRecord& file) {
 }
 
 bool names_all(const Manifest& manifest, const vector<string>& names) {
-  return std::ranges::all_of(names, [&](const string& name) {
+  return all_of(names, [&](const string& name) {
     const auto has_name = [&](const auto& file) { return file.name == name; };
-    return std::ranges::any_of(manifest.files, has_name) || std::ranges::any_of(manifest.left_out, has_name);
+    return any_of(manifest.files, has_name) || any_of(manifest.left_out, has_name);
   });
 }
 
 /// The first entry of a run's folder that neither the manifest nor a former run accounts for, and that `counts`.
 string foreign_entry(const FoundFolder& found, const Manifest& manifest,
                      const function<bool(const string& name)>& counts) {
-  std::set<string> known = {manifest_name, failure_file};
+  set<string> known = {manifest_name, failure_file};
   for (const FileRecord& file : manifest.files) known.insert(file.name);
   const auto is_foreign = [&](const string& name) { return !known.contains(name) && counts(name); };
 
@@ -63,7 +60,7 @@ string foreign_entry(const FoundFolder& found, const Manifest& manifest,
   SeriesFolders folders(found.folder.get());
   for (const string& name : found.names) {
     if (is_part_name(name)) continue;
-    const int inner = std::ranges::find(series, name) == series.end() ? -1 : folders.open(name);
+    const int inner = !contains(series, name) ? -1 : folders.open(name);
     if (inner < 0 && is_foreign(name)) return name;
     if (inner < 0) continue;
 
@@ -107,9 +104,9 @@ bool is_whole(int folder, const Manifest& manifest, const string& outputs, const
 bool has_more(int folder, const Manifest& manifest, const Scene& scene, const vector<string>& names) {
   if (manifest.version != CAROM_VERSION) return false;
   SeriesFolders folders(folder);
-  return std::ranges::any_of(manifest.files, [&](const FileRecord& file) {
+  return any_of(manifest.files, [&](const FileRecord& file) {
     const OutputKind* kind = series_of(file.name);
-    const bool anew = kind ? kind->asked(scene.output) : std::ranges::find(names, file.name) != names.end();
+    const bool anew = kind ? kind->asked(scene.output) : contains(names, file.name);
     if (anew) return false;
     const FileSpot spot = folders.spot(file.name);
     return spot.folder >= 0 && stored_size(spot.folder, spot.name).has_value();
@@ -125,7 +122,7 @@ optional<timespec> changed(const FileSpot& spot) {
 }
 
 bool is_before(const timespec& a, const timespec& b) {
-  return std::tie(a.tv_sec, a.tv_nsec) < std::tie(b.tv_sec, b.tv_nsec);
+  return tie(a.tv_sec, a.tv_nsec) < tie(b.tv_sec, b.tv_nsec);
 }
 
 }  // namespace
@@ -190,8 +187,7 @@ FoundFolder find_folder(const string& path) {
   found.names = folder_names(found.folder.get());
   const auto is_leftover = [](const string& name) { return is_part_name(name) || name == failure_file; };
   if (!found.names.empty())
-    found.content =
-        std::ranges::all_of(found.names, is_leftover) ? FolderContent::incomplete : FolderContent::other_run;
+    found.content = all_of(found.names, is_leftover) ? FolderContent::incomplete : FolderContent::other_run;
   return found;
 }
 
@@ -222,7 +218,7 @@ FolderContent inspect_folder(const string& path, const Scene& scene, const strin
 
     const auto is_written = [&](const string& name) {
       const OutputKind* kind = series_of(name);
-      return kind ? kind->asked(scene.output) : std::ranges::find(files, name) != files.end();
+      return kind ? kind->asked(scene.output) : contains(files, name);
     };
 
     FolderChanges its = changes_in(found, *manifest, is_written);

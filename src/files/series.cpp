@@ -2,7 +2,6 @@
 // The complete files of a series stay even if the run fails later.
 #include "files/series.h"
 
-#include <algorithm>
 #include <cstring>
 
 #include "files/stored_file.h"
@@ -33,7 +32,7 @@ string Series::put(int64_t number, const string& file_name, string_view bytes) {
 
 /// Whether all files that are recorded are there.
 bool Series::has_all() const {
-  return std::ranges::all_of(records_, [this](const auto& entry) {
+  return all_of(records_, [this](const auto& entry) {
     const FileRecord& record = entry.second;
     const optional<FileRecord> stored = read_record(place_.folder, record.name.substr(files_.folder.size() + 1));
     return stored && stored->bytes == record.bytes && stored->sha256 == record.sha256;

@@ -1,6 +1,5 @@
 #pragma once
 // Files of one output in a folder of their own (frames/, vtk/, plots/). Each file is complete when its name appears.
-#include <map>
 #include <mutex>
 
 #include "files/open_folder.h"
@@ -35,7 +34,7 @@ class Series {
   const FileSeries& files_;
   FilePlace place_;
   mutable std::mutex mutex_;
-  std::map<int64_t, FileRecord> records_;  // by number, changed under the mutex
+  map<int64_t, FileRecord> records_;  // by number, changed under the mutex
 };
 
 }  // namespace carom

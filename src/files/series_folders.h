@@ -1,6 +1,5 @@
 #pragma once
 // The subfolders of a run's folder that hold series of files, such as frames/.
-#include <map>
 
 #include "files/file_place.h"
 #include "scene/output_kinds.h"
@@ -35,7 +34,7 @@ class SeriesFolders {
 
  private:
   int folder_;
-  std::map<string, Descriptor, std::less<>> opened_;
+  map<string, Descriptor, std::less<>> opened_;
 };
 
 /// The names of all series' folders.

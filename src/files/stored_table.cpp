@@ -5,10 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cmath>
 
 #include "files/stored_file.h"
 #include "std.h"
@@ -43,7 +41,7 @@ uint64_t size_of(int file) {
 optional<double> number_in(string_view cell) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (cell.empty() || error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return {};
+  if (cell.empty() || error != std::errc() || end != cell.data() + cell.size() || !isfinite(value)) return {};
   return value;
 }
 
@@ -79,7 +77,7 @@ StoredTable::StoredTable(Descriptor file) : file_(std::move(file)) {
 }
 
 optional<size_t> StoredTable::find(string_view column) const {
-  const auto found = std::ranges::find(columns_, column);
+  const auto found = ranges::find(columns_, column);
   if (found == columns_.end()) return nullopt;
   return size_t(found - columns_.begin());
 }

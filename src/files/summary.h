@@ -1,6 +1,5 @@
 #pragma once
 // The results of a run: the row of summary.csv, and what manifest.json holds besides.
-#include <limits>
 
 #include "physics/tally.h"
 #include "std.h"

@@ -2,8 +2,6 @@
 // this table instead of lists of their own.
 #include "files/summary_columns.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -66,7 +64,7 @@ span<const SummaryColumn> summary_columns() {
 }
 
 const SummaryColumn* find_summary_column(string_view name) {
-  const auto found = std::ranges::find_if(columns, [&](const SummaryColumn& column) { return column.name == name; });
+  const auto found = ranges::find_if(columns, [&](const SummaryColumn& column) { return column.name == name; });
   return found == columns.end() ? nullptr : &*found;
 }
 

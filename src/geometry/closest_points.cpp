@@ -1,8 +1,6 @@
 // The closest points of a box or an upright cylinder and a wall at an angle to it.
 // Two convex bodies that do not overlap are nearest where a corner of one faces the other, or where two edges cross.
 // The candidates are so few that all are tried. Ties give the middle of all closest points.
-#include <algorithm>
-#include <cmath>
 
 #include "geometry/pair.h"
 #include "physics/world.h"
@@ -15,7 +13,7 @@ namespace {
 /// The point of a box or a cylinder nearest to p, both from its centre.
 Vec3 clamped(const Volume& v, const Vec3& p) {
   if (v.shape == Shape::box) return p.cwiseMax(-v.half).cwiseMin(v.half);
-  const double rho = std::sqrt(p.x() * p.x() + p.z() * p.z());
+  const double rho = sqrt(p.x() * p.x() + p.z() * p.z());
   const double shrink = rho > v.half.x() ? v.half.x() / rho : 1;
   return {shrink * p.x(), clamp(p.y(), -v.half.y(), v.half.y()), shrink * p.z()};
 }

@@ -4,8 +4,6 @@
 // parabola that time is the root of a quadratic. The search moves there and repeats, so that no contact can be missed.
 // Head on, this is Newton's method on a convex gap. Where the path only grazes, each step halves the rest. At the end
 // the time is computed once more from the feature's own equation.
-#include <algorithm>
-#include <cmath>
 
 #include "geometry/contact_time.h"
 #include "geometry/relative_way.h"
@@ -140,13 +138,13 @@ class ConservativeAdvancement {
     if (acceleration >= 0 || speed > 0) return way_.back(s.normal, t, speed, horizon_ - t);
     const double unsure = 16 * rounding * relative_acceleration.cwiseAbs().sum();
     // Rounding of the acceleration takes the path no deeper than rounding of positions.
-    if (!Way::parabola && -acceleration <= unsure) return std::sqrt(rounding * (far_ + set_.size()) / unsure);
+    if (!Way::parabola && -acceleration <= unsure) return sqrt(rounding * (far_ + set_.size()) / unsure);
     const Vec3 p = m_.d + displacement(t);
     if (!(acceleration + set_.bending(p, s.feature, v) > 0)) return 0;
     // The path flies off along a curved surface that turns away faster than it does. The plane gives no information
     // here. A short step, relative to the surface's size, lifts the path off.
     constexpr double step = 0x1p-26;
-    return step * min(set_.size() / v.norm(), std::sqrt(set_.size() / relative_acceleration.norm()));
+    return step * min(set_.size() / v.norm(), sqrt(set_.size() / relative_acceleration.norm()));
   }
 
   /// Of the faces at a sharp edge, the one over which the point leaves.

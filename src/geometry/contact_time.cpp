@@ -2,9 +2,6 @@
 // Discriminants and gaps near zero are evaluated in double-double. A grazing contact is then as exact as its data.
 #include "geometry/contact_time.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/exact_path.h"
 #include "numerics/compensated.h"
 #include "std.h"
@@ -45,7 +42,7 @@ double straight_contact_time(const RelativeMotion& m, double s, double horizon) 
   }
 
   if (disc <= 0) return never;
-  const double t = c / (std::sqrt(disc) - b);
+  const double t = c / (sqrt(disc) - b);
   return t <= horizon ? t : never;
 }
 
@@ -173,7 +170,7 @@ double straight_taut_time(const RelativeMotion& m, double s, double horizon) {
   if (c <= gap_noise * s * s && std::abs(b) <= velocity_noise * m.speeds * s) b = c = 0;
   c = max(c, 0.0);
   if (c == 0 && b >= 0) return 0;
-  const double root = std::sqrt(b * b + c * speed2);
+  const double root = sqrt(b * b + c * speed2);
   const double t = b > 0 ? c / (b + root) : (root - b) / speed2;
   return t <= horizon ? t : never;
 }
@@ -203,10 +200,10 @@ double plane_contact_time(double gap, double speed, double acceleration, double 
   } else {
     const double disc = difference_of_products(speed, speed, 2 * acceleration, gap).value();
     if (acceleration < 0) {
-      const double q = std::sqrt(disc);
+      const double q = sqrt(disc);
       t = speed > 0 ? (speed + q) / -acceleration : 2 * gap / (q - speed);
     } else if (speed < 0 && disc > 0) {
-      t = 2 * gap / (std::sqrt(disc) - speed);
+      t = 2 * gap / (sqrt(disc) - speed);
     }
   }
 

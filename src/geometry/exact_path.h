@@ -1,7 +1,6 @@
 #pragma once
 // The position on a path of degree two in double-double, exact for the given doubles to a part in 2^100. The time of a
 // grazing contact is then as exact as its data.
-#include <cmath>
 
 #include "geometry/relative_motion.h"
 #include "numerics/compensated.h"

@@ -3,8 +3,7 @@
 // bisection finds the zero or shows that there is none.
 #include "geometry/fading_descent.h"
 
-#include <algorithm>
-#include <cmath>
+#include "std.h"
 
 namespace carom {
 

@@ -4,10 +4,6 @@
 #include "geometry/fit.h"
 
 #include <Eigen/QR>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "std.h"
 
@@ -103,7 +99,7 @@ Vec3 sphere_center(Points points) {
   solve(basis);
 
   Vec3 best = basis.center;
-  double best_square = numeric_limits<double>::infinity();
+  double best_square = infinity;
   while (true) {
     double square = -1;
     const Vec3* farthest = nullptr;
@@ -125,7 +121,7 @@ double farthest_from(const Vec3& center, Points points) {
   double square = 0;
   for (const Vec3& p : points) square = max(square, (p - center).squaredNorm());
   // Rounded up, so that no point is outside by the rounding of its own distance.
-  return std::sqrt(square) * (1 + 2 * numeric_limits<double>::epsilon());
+  return sqrt(square) * (1 + 2 * numeric_limits<double>::epsilon());
 }
 
 }  // namespace

@@ -3,10 +3,6 @@
 // a contact, this cannot.
 #include "geometry/path_time_of_impact.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
 #include "geometry/relative_way.h"
@@ -49,12 +45,12 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
 
       if (rate == 0 && acceleration < 0 && -acceleration <= unsure) {
         // Rounding of the acceleration takes the path no deeper than rounding of positions.
-        least = std::sqrt(closed / unsure);
+        least = sqrt(closed / unsure);
       } else if (rate == 0 && (acceleration < 0 || way.descent(n, t, 0, 0, horizon - t) == 0)) {
         if (acceleration + bending(world, a, xa, b, xb, there, w) <= 0) return {t, there.feature};
         // The surface turns away faster than the path bends towards it.
         const double size = world.radius[a];
-        least = 0x1p-26 * min(size / w.norm(), std::sqrt(size / std::abs(acceleration)));
+        least = 0x1p-26 * min(size / w.norm(), sqrt(size / std::abs(acceleration)));
       }
       gap = 0;
     }
@@ -117,7 +113,7 @@ double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, doubl
   if (closed && std::abs(gap[1]) <= 0x1p-48 * length * speeds * s) gap[1] = 0;
   if (closed) gap[0] = 0;
 
-  const auto first = std::ranges::find_if(gap, [](double c) { return c != 0; });
+  const auto first = ranges::find_if(gap, [](double c) { return c != 0; });
   if (first == gap.end()) return never;
   if (*first < 0) return 0;
 

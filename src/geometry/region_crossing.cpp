@@ -5,9 +5,6 @@
 // Conditions on single coordinates come first: far from the region the powers of a distance have no digits left.
 #include "geometry/region_crossing.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/bernstein.h"
 #include "numerics/bracketed_root.h"
 #include "numerics/compensated.h"

@@ -2,7 +2,6 @@
 // The path of one thing as seen from another, for paths of different kinds: the interface of the search by separating
 // planes. Lengths and times count from the instant at which the search begins. Displacements are those of b less those
 // of a.
-#include <utility>
 
 #include "geometry/contact_time.h"
 #include "geometry/fading_descent.h"
@@ -46,8 +45,8 @@ class FadingWay {
     pa_.x = pb_.x = Vec3::Zero();
     if (pa.fade != pb.fade) return;
     // The common part is removed, so that it takes no digits.
-    pb_.v -= std::exchange(pa_.v, Vec3::Zero());
-    pb_.a -= std::exchange(pa_.a, Vec3::Zero());
+    pb_.v -= exchange(pa_.v, Vec3::Zero());
+    pb_.a -= exchange(pa_.a, Vec3::Zero());
   }
 
   Vec3 displacement(double t) const { return pb_.position(t) - pa_.position(t); }

@@ -3,9 +3,6 @@
 // of these parts. Gaps near zero are compensated, and the round rim has a double-double form.
 #include "geometry/round_prism.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/exact_path.h"
 #include "numerics/compensated.h"
 #include "std.h"
@@ -16,7 +13,7 @@ namespace {
 
 /// sqrt(u^2 + v^2) - radius.
 double length_beyond(double u, double v, double radius) {
-  const double length = std::sqrt(u * u + v * v);
+  const double length = sqrt(u * u + v * v);
   return radius > 0 ? squared_gap(Vec3(u, v, 0), radius) / (length + radius) : length;
 }
 
@@ -42,7 +39,7 @@ RoundPrism::Excess RoundPrism::excess(const Vec3& p, PrismFeature f) const {
     return {side * p[k] - half[k] - disc, side * Vec3::Unit(k), 0};
   }
   const Vec3 e = from_corner(p, f);
-  const double rho = std::sqrt(e.x() * e.x() + e.z() * e.z());
+  const double rho = sqrt(e.x() * e.x() + e.z() * e.z());
   const Vec3 out = rho > 0 ? Vec3(e / rho) : Vec3(f.x, 0, round() ? 0 : f.z).normalized();
   return {length_beyond(e.x(), e.z(), disc), out, rho};
 }
@@ -75,8 +72,8 @@ Separation RoundPrism::at(const Vec3& p, uint8_t feature) const {
     const Vec3 c = from_corner(p, f);
     return {f.bent() ? length_beyond(c.x(), c.z(), disc + ball) : e.u - ball, e.out, feature};
   }
-  const double length = std::sqrt(e.u * e.u + v * v);
-  const double nu = length > 0 ? e.u / length : std::sqrt(0.5), nv = length > 0 ? v / length : std::sqrt(0.5);
+  const double length = sqrt(e.u * e.u + v * v);
+  const double nu = length > 0 ? e.u / length : sqrt(0.5), nv = length > 0 ? v / length : sqrt(0.5);
   return {length_beyond(e.u, v, ball), nu * e.out + Vec3(0, nv * f.y, 0), feature};
 }
 
@@ -95,7 +92,7 @@ double RoundPrism::displaced_gap(const Vec3& p, uint8_t feature, double gap, con
 
   if (f.y == 0) return gap + du;
   const double u = excess(p, f).u, v = f.y * p.y() - half.y();
-  const double lengths = std::sqrt(u * u + v * v) + std::sqrt((u + du) * (u + du) + (v + dv) * (v + dv));
+  const double lengths = sqrt(u * u + v * v) + sqrt((u + du) * (u + du) + (v + dv) * (v + dv));
   return lengths > 0 ? gap + (du * (2 * u + du) + dv * (2 * v + dv)) / lengths : gap;
 }
 
@@ -118,7 +115,7 @@ double RoundPrism::bending(const Vec3& p, uint8_t feature, const Vec3& w) const 
   const double turn = e.rho > 0 ? around * around / e.rho : 0;
   if (f.y == 0) return turn;
   const double v = f.y * p.y() - half.y();
-  const double length = std::sqrt(e.u * e.u + v * v);
+  const double length = sqrt(e.u * e.u + v * v);
   if (length == 0) return 0;
   const double across = (e.u * f.y * w.y() - v * e.out.dot(w)) / length;
   return across * across / length + e.u / length * turn;

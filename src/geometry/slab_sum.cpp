@@ -2,8 +2,6 @@
 // the faces of one slab. There are at most ten slabs, so that all are tried.
 #include "geometry/slab_sum.h"
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "std.h"
 

@@ -3,9 +3,6 @@
 // contact of spheres in closed form.
 #include "geometry/tilted_sum.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "std.h"
 
@@ -20,7 +17,7 @@ Vec3 level_part(const Vec3& p) {
 }
 
 double level_length(const Vec3& p) {
-  return std::sqrt(p.x() * p.x() + p.z() * p.z());
+  return sqrt(p.x() * p.x() + p.z() * p.z());
 }
 
 }  // namespace

@@ -3,9 +3,6 @@
 // the last digits.
 #include "geometry/touch.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/pair.h"
 #include "numerics/compensated.h"
 #include "physics/world.h"
@@ -91,7 +88,7 @@ Vec3 middle_of_areas(double disc, const Volume& other, const Vec3& d) {
   const Vec3 across = middle - nearest;
   const double half = nearest.dot(across), length = across.squaredNorm();
   const double inside = max(disc * disc - nearest.squaredNorm(), 0.0);
-  const double on_rim = inside > 0 ? inside / (half + std::sqrt(half * half + length * inside)) : 0;
+  const double on_rim = inside > 0 ? inside / (half + sqrt(half * half + length * inside)) : 0;
   return nearest + 0.5 * on_rim * across;
 }
 

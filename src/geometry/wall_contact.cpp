@@ -1,8 +1,6 @@
 // A sphere and a wall, in the wall's own frame: p = (along right, along up, along normal) from its centre.
 // In that frame every part of the enlarged wall is a sphere contact in two or three coordinates, or a plane contact in
 // one.
-#include <algorithm>
-#include <cmath>
 
 #include "geometry/contact_time.h"
 #include "physics/world.h"
@@ -76,7 +74,7 @@ double face_contact_time(const LocalPath& path, double side, const double half[2
   } else if (acceleration < 0 && speed > 0) {
     // Beside the rectangle or beyond it, the path meets the face only after it has risen over it, at the later root.
     const double disc = speed * speed - 2 * acceleration * gap;
-    if (disc > 0) t = (speed + std::sqrt(disc)) / -acceleration;
+    if (disc > 0) t = (speed + sqrt(disc)) / -acceleration;
   }
 
   // The path has just left the face over its rim.

@@ -1,8 +1,6 @@
 // Isolates roots by halving. An interval of 2^-52 with a change of sign counts as a root.
 #include "numerics/bernstein.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -65,7 +63,7 @@ vector<double> roots_in_unit(span<const double> coefficients) {
   vector<double> roots;
   if (coefficients.size() < 2) return roots;
   array<double, Bernstein::most_degree + 1> powers{};
-  std::ranges::copy(coefficients, powers.begin());
+  ranges::copy(coefficients, powers.begin());
   Bernstein f = Bernstein::of_powers(powers, coefficients.size() - 1);
   isolate(f, 0, 1, 0, roots);
   std::erase_if(roots, [](double s) { return !(s > 0 && s < 1); });

@@ -1,6 +1,7 @@
 #pragma once
 // The root of a function in an interval that holds exactly one.
-#include <cmath>
+
+#include "std.h"
 
 namespace carom {
 

@@ -3,9 +3,9 @@
 // Sources: Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971); Ogita,
 // Rump & Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26 (2005).
 // No fused multiply-add is used, so that every processor gives the same bits.
-#include <cmath>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -64,7 +64,7 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) {
 /// One step of Newton's method from the rounded root. The result is 0 for x <= 0 and for NaN.
 inline DoubleDouble square_root(DoubleDouble x) {
   if (!(x.hi > 0)) return {0, 0};
-  const double root = std::sqrt(x.hi);
+  const double root = sqrt(x.hi);
   return fast_two_sum(root, (x - two_product(root, root)).value() / (2 * root));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The cube root with the same bits on every machine, which std::cbrt does not promise.
-#include <cmath>
+
+#include "std.h"
 
 namespace carom {
 

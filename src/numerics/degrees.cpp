@@ -2,9 +2,6 @@
 // sin(z pi/180) by a plain product would give 6e-17 for the cosine of 90 degrees.
 #include "numerics/degrees.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "std.h"
 
 namespace carom {
@@ -17,8 +14,8 @@ constexpr double degrees = 0x1.ca5dc1a63c1f8p+5;  // 180 / pi
 
 /// Of an angle from -45 to 45 degrees.
 SinCos reduced(double angle) {
-  if (std::abs(angle) == 30) return {std::copysign(0.5, angle), std::sqrt(0.75)};
-  if (std::abs(angle) == 45) return {std::copysign(std::sqrt(0.5), angle), std::sqrt(0.5)};
+  if (std::abs(angle) == 30) return {std::copysign(0.5, angle), sqrt(0.75)};
+  if (std::abs(angle) == 45) return {std::copysign(sqrt(0.5), angle), sqrt(0.5)};
   return sin_cos(two_product(angle, radians.hi) + DoubleDouble{angle * radians.lo, 0});
 }
 
@@ -32,7 +29,7 @@ double whole_if(double angle, const Matches& matches) {
 }  // namespace
 
 SinCos sin_cos_degrees(double angle) {
-  if (!std::isfinite(angle)) return {nan, nan};
+  if (!isfinite(angle)) return {nan, nan};
   const double turn = std::fmod(angle, 360);
   const double quarters = std::nearbyint(turn / 90);
   const SinCos of = reduced(turn - 90 * quarters);
@@ -45,13 +42,13 @@ SinCos sin_cos_degrees(double angle) {
 
 double arc_sine_degrees(double s) {
   if (!(std::abs(s) <= 1)) return nan;
-  const double angle = arc_tangent(s, std::sqrt((1 - s) * (1 + s))) * degrees;
+  const double angle = arc_tangent(s, sqrt((1 - s) * (1 + s))) * degrees;
   return whole_if(angle, [&](const SinCos& of) { return of.sin == s; });
 }
 
 double arc_cosine_degrees(double c) {
   if (!(std::abs(c) <= 1)) return nan;
-  const double angle = arc_tangent(std::sqrt((1 - c) * (1 + c)), c) * degrees;
+  const double angle = arc_tangent(sqrt((1 - c) * (1 + c)), c) * degrees;
   return whole_if(angle, [&](const SinCos& of) { return of.cos == c; });
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // The motion of many points in one step of a method, with dense output: it can be evaluated at every instant of the
 // step.
-#include <utility>
 
 #include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"

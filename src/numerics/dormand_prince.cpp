@@ -4,11 +4,6 @@
 // They are evaluated only when interpolate() is called.
 #include "numerics/dormand_prince.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -168,7 +163,7 @@ Vec3 sum(const StageWeights& row, const vector<Vec3>* stages, size_t k) {
 double error_of(double h, double e5, double e3) {
   if (e5 == 0) return 0;
   const double ratio = 0.1 * e3 / e5;
-  return h * std::abs(e5) / std::sqrt(1 + ratio * ratio);
+  return h * std::abs(e5) / sqrt(1 + ratio * ratio);
 }
 
 }  // namespace
@@ -201,7 +196,7 @@ double DormandPrince::step(double h, const Acceleration& acceleration, double po
     for (int axis = 0; axis < 3; ++axis) {
       const double x_error = error_of(h, x5[axis], x3[axis]) / position;
       const double v_error = error_of(h, v5[axis], v3[axis]) / velocity;
-      if (!std::isfinite(x_error) || !std::isfinite(v_error)) return numeric_limits<double>::infinity();
+      if (!isfinite(x_error) || !isfinite(v_error)) return infinity;
       greatest = max({greatest, x_error, v_error});
     }
   }
@@ -211,8 +206,8 @@ double DormandPrince::step(double h, const Acceleration& acceleration, double po
 
 double DormandPrince::next_length(double h, double error) {
   constexpr double safety = 0.9, shortest = 0.2, longest = 6;
-  if (!std::isfinite(error)) return shortest * h;
-  const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+  if (!isfinite(error)) return shortest * h;
+  const double eighth_root = sqrt(sqrt(sqrt(error)));
   return h * (eighth_root > 0 ? clamp(safety / eighth_root, shortest, longest) : longest);
 }
 

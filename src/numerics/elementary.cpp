@@ -5,8 +5,6 @@
 // the rounding of those.
 #include "numerics/elementary.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -46,7 +44,7 @@ struct Halvings {
 };
 /// z = count ln 2 + rest, |rest| <= ln(2)/2, for 0 <= z < 1e5.
 Halvings halvings(double z) {
-  const double count = std::floor(z * (1 / (ln2_hi + ln2_lo)) + 0.5);
+  const double count = floor(z * (1 / (ln2_hi + ln2_lo)) + 0.5);
   return {int(count), (z - count * ln2_hi) - count * ln2_lo};
 }
 
@@ -56,7 +54,7 @@ double log_one_plus_guess(double y) {
   double w = y / (2 + y);
   if (y > 0.41) {
     // In [1/sqrt(2), sqrt(2)).
-    const double m = std::frexp(1 + y, &exponent) * std::sqrt(2.0);
+    const double m = std::frexp(1 + y, &exponent) * sqrt(2.0);
     w = (m - 1) / (m + 1);
   }
   const double square = w * w;
@@ -68,7 +66,7 @@ double log_one_plus_guess(double y) {
 /// u - u^3/3 + ...
 double arc_tangent_guess(double y, double x) {
   const double ax = std::abs(x), ay = std::abs(y);
-  const double slope = min(ax, ay) / max(ax, ay), u = slope / (1 + std::sqrt(1 + slope * slope));
+  const double slope = min(ax, ay) / max(ax, ay), u = slope / (1 + sqrt(1 + slope * slope));
   const double square = u * u;
   double angle =
       2 * u * (1 - square * (1.0 / 3 - square * (0.2 - square * (1.0 / 7 - square * (1.0 / 9 - square / 11)))));
@@ -85,7 +83,7 @@ SinCos sin_cos(DoubleDouble z) {
   DoubleDouble r = {sign * z.hi, sign * z.lo};
 
   // Whole quarters of a turn are taken away in three parts.
-  const double quarters = std::floor(r.hi * (2 / pi) + 0.5);
+  const double quarters = floor(r.hi * (2 / pi) + 0.5);
   if (quarters != 0) {
     r = r - two_product(quarters, half_pi_parts[0]) - two_product(quarters, half_pi_parts[1]);
     r = r - DoubleDouble{quarters * half_pi_parts[2], 0};
@@ -93,7 +91,7 @@ SinCos sin_cos(DoubleDouble z) {
 
   // Each of them exchanges sine and cosine, and changes a sign.
   const SinCos of = sin_cos_reduced(r);
-  const double quarter = quarters - 4 * std::floor(0.25 * quarters);
+  const double quarter = quarters - 4 * floor(0.25 * quarters);
   if (quarter == 0) return {sign * of.sin, of.cos};
   if (quarter == 1) return {sign * of.cos, -of.sin};
   if (quarter == 2) return {-sign * of.sin, -of.cos};
@@ -125,7 +123,7 @@ double log_one_plus(double y) {
 double arc_sinh(double y) {
   const double a = std::abs(y);
   if (a > 0x1p500) return std::copysign(log_one_plus(2 * min(a, 0x1p1022)), y);
-  return std::copysign(log_one_plus(a + a * (a / (1 + std::sqrt(1 + a * a)))), y);
+  return std::copysign(log_one_plus(a + a * (a / (1 + sqrt(1 + a * a)))), y);
 }
 
 double arc_tangent(double y, double x) {

@@ -1,7 +1,6 @@
 #pragma once
 // Sines, exponentials, logarithms and angles with the same bits on every machine, which <cmath> does not promise.
 // Only + - * / and the square root reach a result. Each function is right to 2.5 units in the last place.
-#include <cmath>
 
 #include "numerics/compensated.h"
 #include "std.h"

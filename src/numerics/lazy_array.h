@@ -1,7 +1,6 @@
 #pragma once
 // Values by body that most scenes do not need. They take memory from the first write on.
 #include <deque>
-#include <utility>
 
 #include "std.h"
 

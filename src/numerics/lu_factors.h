@@ -1,8 +1,6 @@
 #pragma once
 // P M = L U of a small dense matrix, by rows with partial pivoting (Golub & Van Loan, Matrix Computations, 4th ed.
 // 2013, 3.4). Sums have one order. A library that fits its blocks to a machine's caches does not give that.
-#include <cmath>
-#include <utility>
 
 #include "std.h"
 
@@ -25,7 +23,7 @@ class LuFactors {
       from_[k] = pivot;
       if (pivot != k) std::swap(row_[k], row_[pivot]);
       inverse_[k] = 1 / row_[k][k];
-      if (!std::isfinite(inverse_[k])) return false;
+      if (!isfinite(inverse_[k])) return false;
       for (size_t i = k + 1; i < size; ++i) eliminate(i, k);
     }
     return true;

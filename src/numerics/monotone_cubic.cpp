@@ -4,9 +4,6 @@
 // slopes at both ends are zero, so that the constant values outside continue the curve smoothly.
 #include "numerics/monotone_cubic.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {

@@ -4,10 +4,6 @@
 // processor gives the same bits.
 #include "numerics/orthogonal_factors.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -65,7 +61,7 @@ void OrthogonalFactors::from_q(const double* d, double* v) const {
 }
 
 double OrthogonalFactors::tail(const double* d) const {
-  return std::sqrt(dot(d + rank_, d + rank_, n_ - rank_));
+  return sqrt(dot(d + rank_, d + rank_, n_ - rank_));
 }
 
 void OrthogonalFactors::tail_direction(const double* d, double* v) const {
@@ -108,7 +104,7 @@ void OrthogonalFactors::append(double* d) {
     for (size_t i = 0; i < n_; ++i) std::swap(q_[i * stride_ + rank_], q_[i * stride_ + rank_ + k]);
   }
 
-  const double length = std::sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
+  const double length = sqrt(dot(h, h, rest)), head = h[0] > 0 ? -length : length;
   // The two have opposite signs, so nothing cancels.
   h[0] -= head;
 
@@ -140,7 +136,7 @@ void OrthogonalFactors::remove(size_t place, double* d) {
 
   for (size_t j = place; j < rank_; ++j) {
     double* column = &r_[j * stride_];
-    const double p = column[j], q = column[j + 1], length = std::sqrt(p * p + q * q);
+    const double p = column[j], q = column[j + 1], length = sqrt(p * p + q * q);
     const double c = length == 0 ? 1 : p / length, s = length == 0 ? 0 : q / length;
     cosine[j - place] = c;
     sine[j - place] = s;

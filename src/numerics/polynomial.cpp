@@ -3,9 +3,6 @@
 // can be missed. Degree 2 has the closed form, with its discriminant in double-double arithmetic.
 #include "numerics/polynomial.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/bracketed_root.h"
 
 #include "numerics/compensated.h"
@@ -40,7 +37,7 @@ bool add_quadratic_roots(const Polynomial& f, double low, double high, Roots& ro
   if (!(size > 0x1p-900 && size < 0x1p900)) return false;
   const double disc = difference_of_products(b, b, 4 * a, c).value();
   if (disc <= 0) return true;
-  const double q = -0.5 * (b + std::copysign(std::sqrt(disc), b));
+  const double q = -0.5 * (b + std::copysign(sqrt(disc), b));
   const double one = q / a, other = c / q;
   for (const double t : {min(one, other), max(one, other)})
     if (t > low && t < high) roots.at[size_t(roots.count++)] = t;

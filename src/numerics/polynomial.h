@@ -2,7 +2,6 @@
 // Roots of the polynomials of paths: parabolas give a degree of 4 at most, steps of a method 8.
 // The method is the derivative cascade. The roots of f' divide the line into pieces on which f is monotone.
 // Each piece has one root or none, so that no root can be missed.
-#include <limits>
 
 #include "std.h"
 
@@ -27,7 +26,7 @@ struct Roots {
 /// The roots of f in (low, high), both finite.
 Roots roots_between(const Polynomial& f, double low, double high);
 
-inline constexpr double never = numeric_limits<double>::infinity();
+inline constexpr double never = infinity;
 
 /// The pieces of [0, horizon] on which f is at most zero and falls, in order.
 /// At the start of a piece f crosses zero downwards. Or f was at most zero before, and begins to fall there.

@@ -2,7 +2,6 @@
 // The degree 7 polynomial interpolates the velocity and is integrated. Position and velocity then belong to one motion.
 #include "numerics/polynomial_path.h"
 
-#include <algorithm>
 #include <initializer_list>
 
 #include "std.h"
@@ -15,7 +14,7 @@ PolynomialPath path_of(double length, std::initializer_list<Vec3> first) {
   PolynomialPath path;
   path.length = length;
   path.displacement.fill(Vec3::Zero());
-  std::ranges::copy(first, path.displacement.begin());
+  ranges::copy(first, path.displacement.begin());
   return path;
 }
 

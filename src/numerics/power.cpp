@@ -3,10 +3,6 @@
 // exp(y ln x) by itself would lose as many digits as y ln x has before the point.
 #include "numerics/power.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "numerics/elementary.h"
 #include "std.h"
 
@@ -58,7 +54,7 @@ double exp_of(double z) {
 Scaled root(double x, double f) {
   int exponent = 0;
   double m = std::frexp(x, &exponent);  // in [1/2, 1)
-  if (m < std::sqrt(0.5)) {
+  if (m < sqrt(0.5)) {
     m *= 2;
     --exponent;
   }
@@ -76,17 +72,17 @@ double power(double x, double y) {
   if (std::isnan(x) || std::isnan(y)) return x + y;
 
   const bool is_whole = std::nearbyint(y) == y, is_odd = is_whole && std::fmod(y, 2) != 0;
-  if (x == 0) return y > 0 ? 0 : numeric_limits<double>::infinity();
+  if (x == 0) return y > 0 ? 0 : infinity;
   if (x < 0 && !is_whole) return numeric_limits<double>::quiet_NaN();
   const double base = std::abs(x), sign = x < 0 && is_odd ? -1 : 1;
 
   // Such powers are 0, 1 or infinite.
-  if (!std::isfinite(x) || std::abs(y) > largest_whole) {
+  if (!isfinite(x) || std::abs(y) > largest_whole) {
     if (base == 1) return sign;
-    return sign * ((base > 1) == (y > 0) ? numeric_limits<double>::infinity() : 0);
+    return sign * ((base > 1) == (y > 0) ? infinity : 0);
   }
 
-  if (y == 0.5) return std::sqrt(x);
+  if (y == 0.5) return sqrt(x);
   const double n = std::nearbyint(y), f = y - n;
   const Scaled whole = whole_power(base, n);
   return sign * value(f == 0 ? whole : product(whole, root(base, f)));

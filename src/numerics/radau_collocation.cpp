@@ -4,10 +4,6 @@
 // at once would couple them. A sweep treats one stage at a time, and `hold` can apply the constraints there.
 #include "numerics/radau_collocation.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "numerics/polynomial.h"
 #include "numerics/radau_points.h"
 #include "std.h"
@@ -177,7 +173,7 @@ PolynomialPath RadauCollocation::path(size_t k) const {
       const double below = power > 0 ? p[power - 1] : 0;
       after[power] = ((2 * order + 1) * (2 * below - p[power]) - order * before[power]) / (order + 1);
     }
-    before = std::exchange(p, after);
+    before = exchange(p, after);
   }
 
   PolynomialPath path;

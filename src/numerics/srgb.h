@@ -1,17 +1,16 @@
 #pragma once
 // The curve between linear light and its encoding, both 0 to 1 (IEC 61966-2-1).
-#include <cmath>
 
 #include "std.h"
 
 namespace carom {
 
 inline double light_of_srgb(double c) {
-  return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
 }
 
 inline double srgb_of_light(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+  return x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1 / 2.4) - 0.055;
 }
 
 /// Bytes of the encoding by the root of the light, which spreads the dark values: index 0 to `steps` for 0 to 1.

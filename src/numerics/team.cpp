@@ -8,7 +8,6 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include "std.h"
 
@@ -103,7 +102,7 @@ void Team::run(const Task& task) {
   impl_->begin(size() - 1);
   impl_->try_task(0);
   for (int left; (left = impl_->busy.load(std::memory_order_acquire)) != 0;) changed(impl_->busy, left);
-  if (impl_->failure) std::rethrow_exception(std::exchange(impl_->failure, nullptr));
+  if (impl_->failure) std::rethrow_exception(exchange(impl_->failure, nullptr));
 }
 
 }  // namespace carom

@@ -2,9 +2,7 @@
 // A priority queue with one entry for each body: a tournament with games of eight. Each node keeps its winner and the
 // winner's time. The eight times of a game are contiguous, and only equal times need more data. A changed entry replays
 // its games up to the first one with the same result.
-#include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "numerics/large_pages.h"
 #include "numerics/prefetch.h"
@@ -104,7 +102,7 @@ class Tournament {
 
  private:
   static constexpr size_t width = 8;
-  static constexpr double never = numeric_limits<double>::infinity();
+  static constexpr double never = infinity;
 
   struct Level {
     double* time;  // s, padded to whole games
@@ -177,7 +175,7 @@ class Tournament {
   }
   [[gnu::noinline]] bool find_close(double time) {
     std::erase_if(close_times_, [&](double close) { return close < time - close_; });
-    return std::ranges::any_of(close_times_, [&](double close) { return close <= time + close_; });
+    return any_of(close_times_, [&](double close) { return close <= time + close_; });
   }
 
   Before before_;

@@ -2,8 +2,6 @@
 // The factors of two are those of least squares, the factors of three those of Cramer's rule.
 #include "numerics/vanishing_sum.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -19,7 +17,7 @@ class VanishingSum {
       others_.clear();
       if (!choose(0, count)) continue;
       others_.push_back(first_);
-      std::ranges::sort(others_);
+      ranges::sort(others_);
       return others_;
     }
     return {};

@@ -1,6 +1,5 @@
 #pragma once
 // Conversion from any double to an integer.
-#include <cmath>
 
 #include "std.h"
 
@@ -15,7 +14,7 @@ inline int64_t whole_below(double x) {
   constexpr double most = 0x1p61;
   if (x >= most) return most_whole;
   if (x <= -most) return -most_whole;
-  return x == x ? int64_t(std::floor(x)) : 0;
+  return x == x ? int64_t(floor(x)) : 0;
 }
 
 /// The same, rounded to the nearest whole number.

@@ -1,10 +1,6 @@
 // The scale is constant in time, so that the lengths of a film can be compared. It comes from the scene at time 0.
 #include "overlay/arrows.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/force.h"
 #include "scene/color_scale.h"
 #include "std.h"
@@ -40,14 +36,14 @@ double greatest_force(const Scene& scene) {
 double way_out(const Volume& volume, const Vec3& along) {
   const auto through = [&](int axis) {
     const double part = std::abs(along[axis]);
-    return part > 0 ? volume.half[axis] / part : numeric_limits<double>::infinity();
+    return part > 0 ? volume.half[axis] / part : infinity;
   };
 
   switch (volume.shape) {
     case Shape::sphere:
       return volume.half.x();
     case Shape::cylinder: {
-      const double across = std::hypot(along.x(), along.z());
+      const double across = hypot(along.x(), along.z());
       return across > 0 ? min(volume.half.x() / across, through(1)) : through(1);
     }
     case Shape::box:

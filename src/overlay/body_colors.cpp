@@ -1,8 +1,6 @@
 // Each body has a rule or a constant colour. A rule is one for all bodies with equal keys, so that they share a scale.
 #include "overlay/body_colors.h"
 
-#include <algorithm>
-
 #include "physics/body_now.h"
 #include "std.h"
 
@@ -19,7 +17,7 @@ vector<ColorRule> color_rules(const Scene& scene) {
   vector<ColorRule> rules;
   for (const BodyRange& range : scene.roster.bodies) {
     if (!range.coloring) continue;
-    auto rule = std::ranges::find_if(rules, [&](const ColorRule& other) { return other.coloring == *range.coloring; });
+    auto rule = ranges::find_if(rules, [&](const ColorRule& other) { return other.coloring == *range.coloring; });
     if (rule == rules.end()) rule = rules.insert(rules.end(), {*range.coloring, scale_of(scene, *range.coloring), {}});
     // Members of a repeated thing follow one another.
     if (rule->names.empty() || rule->names.back() != range.thing()) rule->names.emplace_back(range.thing());
@@ -41,7 +39,7 @@ BodyColors::BodyColors(const Scene& scene) : scene_(scene), rules_(color_rules(s
     if (!range.coloring) continue;
 
     const auto rule =
-        std::ranges::find_if(rules_, [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
+        ranges::find_if(rules_, [&](const ColorRule& other) { return other.coloring == *range.coloring; }) -
         rules_.begin();
     std::fill_n(rule_.begin() + range.first, range.count, uint32_t(rule));
 

@@ -2,9 +2,6 @@
 // 255.
 #include "overlay/canvas.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 
 namespace carom {

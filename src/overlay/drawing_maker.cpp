@@ -1,7 +1,6 @@
 // What a scene does not request is not computed: a Drawing of it has a camera and nothing else.
 #include "overlay/drawing_maker.h"
 
-#include <algorithm>
 #include <variant>
 
 #include "overlay/moment.h"
@@ -16,8 +15,7 @@ namespace carom {
 namespace {
 
 bool has_springs(const World& world) {
-  return std::ranges::any_of(world.forces,
-                             [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
+  return any_of(world.forces, [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
 }
 
 bool has_strings(const Scene& scene) {

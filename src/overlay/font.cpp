@@ -5,8 +5,6 @@
 #include <freetype/freetype.h>
 #include <freetype/ftoutln.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
@@ -149,7 +147,7 @@ double Font::width(string_view text) const {
 
 void Font::draw(string_view text, double x, double y, Coverage& to) const {
   const auto add = [&](FT_GlyphSlot glyph, double place) {
-    const double left = x + place, whole_x = std::floor(left), whole_y = std::floor(y);
+    const double left = x + place, whole_x = floor(left), whole_y = floor(y);
     // The outline's y axis points upwards.
     FT_Outline_Translate(&glyph->outline, std::lround((left - whole_x) * 64), -std::lround((y - whole_y) * 64));
     if (FT_Render_Glyph(glyph, FT_RENDER_MODE_NORMAL) != 0) return;

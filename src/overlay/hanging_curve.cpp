@@ -4,9 +4,6 @@
 // A chord of du is off the curve by a du^2 / 8 all along it, so that equal steps of u are the best.
 #include "overlay/hanging_curve.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 
 namespace carom {
@@ -18,7 +15,7 @@ constexpr double least_gap = 1e-9;
 
 /// x > 0 with sinh(x) / x = q > 1. The start lies above it, and Newton's method then descends to it.
 double inverse_of_sinh_ratio(double q) {
-  double x = min(std::sqrt(6 * (q - 1)), 2 * std::log(2 * q) + 1);
+  double x = min(sqrt(6 * (q - 1)), 2 * log(2 * q) + 1);
   for (int i = 0; i < 100; ++i) {
     const double slope = std::cosh(x) - q;
     const double step = (std::sinh(x) - q * x) / slope;
@@ -42,11 +39,11 @@ vector<Vec3> hanging_curve(const Vec3& from, const Vec3& to, double length, cons
   if (!(width > least_gap * length)) return {from + (length - rise) / 2 * down, to};
 
   // The catenary: its scale a, and the places of its ends.
-  const double ratio = std::sqrt((length - rise) * (length + rise)) / width;
+  const double ratio = sqrt((length - rise) * (length + rise)) / width;
   if (!(ratio > 1)) return {to};
   const double x = inverse_of_sinh_ratio(ratio);
   const double a = width / (2 * x), middle = std::atanh(rise / length), first = middle - x;
-  const double count = clamp(std::ceil(2 * x / std::sqrt(8 * error / a)), 1.0, most_strokes);
+  const double count = clamp(ceil(2 * x / sqrt(8 * error / a)), 1.0, most_strokes);
 
   vector<Vec3> points;
   for (double i = 1; i < count; ++i) {

@@ -1,8 +1,6 @@
 // The end of a body's bounces is a record without an impact. It counts for paths and for nothing else.
 #include "overlay/history.h"
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "scene/caption.h"
 #include "scene/engines.h"
@@ -65,7 +63,7 @@ void History::record_paths(span<const PathPiece> pieces) {
 }
 
 double History::next_sample() const {
-  return sampler_ ? sampler_->next() : numeric_limits<double>::infinity();
+  return sampler_ ? sampler_->next() : infinity;
 }
 
 void History::sample(const State& state) {

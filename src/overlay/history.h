@@ -1,6 +1,5 @@
 #pragma once
 // What pictures show of the past: collisions of each body, and paths. Only what a scene requests is kept.
-#include <limits>
 
 #include "overlay/track_sampler.h"
 #include "overlay/tracks.h"
@@ -39,13 +38,13 @@ class History {
   void sample(const State& state);
 
   /// Collisions of a body until `time` (s), which is no older than the trails.
-  uint64_t collisions_of(Entity body, double time = numeric_limits<double>::infinity()) const;
+  uint64_t collisions_of(Entity body, double time = infinity) const;
   /// The time (s) of a body's last collision. Minus infinity: none.
   double last_collision(Entity body) const { return last_.empty() ? no_collision : last_[body]; }
   /// Null: no trails are requested.
   const Tracks* tracks() const { return tracks_ ? &*tracks_ : nullptr; }
 
-  static constexpr double no_collision = -numeric_limits<double>::infinity();
+  static constexpr double no_collision = -infinity;
 
  private:
   void count(Entity body, double time);

@@ -1,8 +1,6 @@
 // A caption has the upper two fifths of a picture, and legends have the lower three, so that they do not meet.
 #include "overlay/inscription.h"
 
-#include <algorithm>
-
 #include "scene/scene.h"
 #include "std.h"
 

@@ -1,9 +1,6 @@
 // Lays legends out once to measure them, and once more to draw them, by the same functions.
 #include "overlay/legend_block.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "overlay/text_block.h"
 #include "std.h"
 
@@ -51,7 +48,7 @@ class LegendPen {
   /// The strip, and below it the numbers of its ends.
   void strip(const Legend& legend) {
     const double numbers = font_.width(legend.min) + font_.width(legend.max) + font_.size();
-    const PixelBox box{int(left_), int(std::ceil(y_)), int(max(strip_width * font_.size(), numbers)),
+    const PixelBox box{int(left_), int(ceil(y_)), int(max(strip_width * font_.size(), numbers)),
                        max(2, int(strip_height * font_.size()))};
     width_ = max(width_, double(box.left + box.width));
 
@@ -92,12 +89,12 @@ LegendBlock::LegendBlock(Font& font, const vector<Legend>& legends, double size,
   if (legends.empty()) return;
   for (; size >= TextBlock::least_size; size *= shrink) {
     font.resize(size);
-    const double padding = std::ceil(TextBlock::padding_of(size));
+    const double padding = ceil(TextBlock::padding_of(size));
 
     LegendPen measure(font, padding, nullptr, nullptr);
     measure.add(legends);
-    const int needed_width = int(std::ceil(measure.width() + padding));
-    const int needed_height = int(std::ceil(measure.height() + padding));
+    const int needed_width = int(ceil(measure.width() + padding));
+    const int needed_height = int(ceil(measure.height() + padding));
     if (needed_width > width || needed_height > height) continue;
 
     canvas_ = make_unique<Canvas>(needed_width, needed_height);

@@ -2,9 +2,6 @@
 // bits tell all bytes apart: the darkest two differ by 20.
 #include "overlay/light_mean.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/srgb.h"
 #include "std.h"
 

@@ -1,6 +1,5 @@
 #pragma once
 // What the lines of one picture are made from.
-#include <algorithm>
 
 #include "overlay/body_colors.h"
 #include "overlay/history.h"

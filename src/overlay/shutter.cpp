@@ -2,9 +2,6 @@
 // plateau. The exposure ends at the picture's time: what a picture shows has happened by the time in its caption.
 #include "overlay/shutter.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/body_now.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -39,9 +36,9 @@ int exposures_of(const Scene& scene, const State& state, double open, const Eye&
     if (!(nearest > opening.camera.near)) continue;
     const double radius = radius_now(scene.world, state, Entity(i)) / (nearest * opening.pixel);
     if (meets(from.x, to.x, radius, 0.5 * opening.size.width) && meets(from.y, to.y, radius, 0.5 * opening.size.height))
-      most = max(most, std::hypot(to.x - from.x, to.y - from.y));
+      most = max(most, hypot(to.x - from.x, to.y - from.y));
   }
-  return int(min(std::ceil(most), double(most_exposures)));
+  return int(min(ceil(most), double(most_exposures)));
 }
 
 void Shutter::aim(double picture) {
@@ -60,7 +57,7 @@ void Shutter::open_for(int count) {
 
 double Shutter::next() const {
   if (!opened_) return from_;
-  if (done_ + 1 >= count_) return numeric_limits<double>::infinity();
+  if (done_ + 1 >= count_) return infinity;
   // From the right, so that the picture's own time is one of the instants.
   return picture_ - (picture_ - from_) * (count_ - 1 - done_) / count_;
 }

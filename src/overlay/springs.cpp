@@ -2,8 +2,6 @@
 // c (1 - cos(pi / n)), which is at most a quarter of a pixel.
 #include "overlay/springs.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <variant>
 
@@ -46,7 +44,7 @@ void add_spring(const Moment& moment, const Spring& spring, Entity body, vector<
   // The turns, unless they are too small to be seen.
   if (until > from && coil > 2 * error) {
     const double turns = turns_of(spring, coil, (moment.scene.initial.position[body] - spring.anchor).norm());
-    const double chords = clamp(std::ceil(std::numbers::pi / std::acos(1 - error / coil)), 6.0, most_chords);
+    const double chords = clamp(ceil(std::numbers::pi / std::acos(1 - error / coil)), 6.0, most_chords);
     const Eigen::Quaterniond frame = frame_along(along);
     wire.go_to(spring.anchor + from * along);
 
@@ -68,7 +66,7 @@ void add_springs(const Moment& moment, vector<Stroke>& strokes) {
   for (size_t k = 0; k < world.forces.size(); ++k) {
     const Force& force = world.forces[k];
     const Spring* spring = std::get_if<Spring>(&force.law);
-    if (spring == nullptr || std::ranges::find(hidden, k) != hidden.end()) continue;
+    if (spring == nullptr || contains(hidden, k)) continue;
     for (Entity body = 0; body < world.body_count(); ++body)
       if (acts(force, body, moment.state.time) && !moment.is_part(body)) add_spring(moment, *spring, body, strokes);
   }

@@ -1,8 +1,6 @@
 // The things that a hanging string would lie on are not considered.
 #include "overlay/strings.h"
 
-#include <algorithm>
-
 #include "overlay/hanging_curve.h"
 #include "overlay/wire.h"
 #include "std.h"

@@ -2,9 +2,6 @@
 // small to read.
 #include "overlay/text_block.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 #include "yaml/letters.h"
 
@@ -19,7 +16,7 @@ unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double p
   for (const string& line : lines) width = max(width, font.width(line));
   const double height = font.line() * double(lines.size() - 1) + font.ascent() + font.descent();
 
-  auto canvas = make_unique<Canvas>(int(std::ceil(width + 2 * padding)), int(std::ceil(height + 2 * padding)));
+  auto canvas = make_unique<Canvas>(int(ceil(width + 2 * padding)), int(ceil(height + 2 * padding)));
   Coverage coverage(canvas->width(), canvas->height());
   double y = padding + font.ascent();
   for (const string& line : lines) {
@@ -77,7 +74,7 @@ TextBlock::TextBlock(Font& font, const string& text, double size, int width, int
     font.resize(size_);
     const double padding = padding_of(size_), space = width - 2 * padding - 1;
     const double one = font.ascent() + font.descent();
-    const double most = std::floor((height - 2 * padding - one - 1) / font.line()) + 1;
+    const double most = floor((height - 2 * padding - one - 1) / font.line()) + 1;
 
     WrappedText text_lines = wrapped(font, text, space);
     vector<string>& lines = text_lines.lines;

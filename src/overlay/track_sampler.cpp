@@ -4,9 +4,6 @@
 // before it is followed from the state before, and the path after it back from the state after.
 #include "overlay/track_sampler.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "physics/body_now.h"
 #include "physics/force.h"
 #include "std.h"
@@ -72,7 +69,7 @@ void TrackSampler::sample(const State& state) {
   for (const Entity body : tracks_.bodies()) {
     Known& known = known_[body];
     if (known.ended) continue;
-    tracks_.remove(body, std::exchange(known.tip, 0));
+    tracks_.remove(body, exchange(known.tip, 0));
 
     const bool ends = is_gone(state, body);
     Known now{state.position[body], state.velocity[body], Vec3::Zero(), {}, ends, 0};

@@ -2,7 +2,6 @@
 // that the cost of a piece does not depend on the length of a run.
 #include "overlay/tracks.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "std.h"
@@ -42,7 +41,7 @@ void Tracks::end(Entity body, double time) {
 
 void Tracks::forget(Entity body, double before) {
   vector<TrackPiece>& pieces = pieces_[body];
-  const auto kept = std::ranges::find_if(pieces, [&](const TrackPiece& piece) { return piece.until > before; });
+  const auto kept = ranges::find_if(pieces, [&](const TrackPiece& piece) { return piece.until > before; });
   if (2 * (kept - pieces.begin()) > pieces.end() - pieces.begin()) pieces.erase(pieces.begin(), kept);
 }
 

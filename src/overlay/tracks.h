@@ -1,6 +1,5 @@
 #pragma once
 // The recent paths of bodies, as pieces of polynomials.
-#include <limits>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
@@ -13,7 +12,7 @@ namespace carom {
 /// displacement.
 struct TrackPiece {
   double from = 0;  // s
-  double until = numeric_limits<double>::infinity();
+  double until = infinity;
   DoubleDouble start{0, 0};  // s
   Vec3 x = Vec3::Zero();     // m, at start
   Vec3 v = Vec3::Zero();     // m/s, at start

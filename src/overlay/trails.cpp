@@ -3,9 +3,6 @@
 // the steps of bodies in contact are shorter than a pixel.
 #include "overlay/trails.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 
 namespace carom {
@@ -42,7 +39,7 @@ class TrailMaker {
       bend = max(bend, piece.acceleration(time).norm());
       pixel = min(pixel, moment_.pixel_at(piece.position(time)));
     }
-    return clamp(std::ceil((until - from) * std::sqrt(bend / (8 * error * pixel))), 1.0, most_points);
+    return clamp(ceil((until - from) * sqrt(bend / (8 * error * pixel))), 1.0, most_points);
   }
 
   void add(Entity body, const TrackPiece& piece, double from, double until) {

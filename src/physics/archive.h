@@ -4,10 +4,7 @@
 // caches. The bytes are those of this processor and this version of the program.
 #include <cstring>
 #include <deque>
-#include <map>
-#include <stdexcept>
 #include <type_traits>
-#include <utility>
 #include <variant>
 
 #include "numerics/vec3.h"
@@ -18,7 +15,7 @@ namespace carom {
 struct World;
 
 /// Bytes do not fit the object that is restored from them.
-struct ArchiveError : std::runtime_error {
+struct ArchiveError : runtime_error {
   ArchiveError() : runtime_error("a saved state is damaged, or it belongs to another scene or version") {}
 };
 
@@ -50,7 +47,7 @@ class ByteWriter {
 
  private:
   string bytes_;
-  std::map<const void*, uint64_t> numbers_;
+  map<const void*, uint64_t> numbers_;
 };
 
 /// Reads them. Throws ArchiveError.
@@ -153,8 +150,8 @@ class StateArchive : public Bytes {
     Bytes::bytes(text.data(), text.size());
   }
   template <typename Key, typename T>
-  void one(std::map<Key, T>& map) {
-    vector<std::pair<Key, T>> entries(map.begin(), map.end());
+  void one(map<Key, T>& map) {
+    vector<pair<Key, T>> entries(map.begin(), map.end());
     one(entries);
     if constexpr (Bytes::reads) map = {entries.begin(), entries.end()};
   }
@@ -168,7 +165,7 @@ class StateArchive : public Bytes {
     for (T& value : list) one(value);
   }
   template <typename First, typename Second>
-  void one(std::pair<First, Second>& pair) {
+  void one(pair<First, Second>& pair) {
     one(pair.first);
     one(pair.second);
   }

@@ -1,8 +1,8 @@
 #pragma once
 // a = -mu d / (|d|^2 + s^2)^(3/2), d = x - center: gravity of a point mass, softened (Plummer 1911) by s.
-#include <cmath>
 
 #include "physics/particle.h"
+#include "std.h"
 
 namespace carom {
 
@@ -17,17 +17,17 @@ struct Attractor {
   bool closed() const { return softening == 0 || strength == 0; }
   static constexpr bool damps() { return false; }
   static constexpr double fade() { return 0; }
-  double reach(const Vec3& x) const { return std::sqrt((x - center).squaredNorm() + softening * softening); }
+  double reach(const Vec3& x) const { return sqrt((x - center).squaredNorm() + softening * softening); }
   Vec3 acceleration(const Particle& p) const {
     const double square = distance_squared(p);
-    return -strength / (square * std::sqrt(square)) * (p.x - center);
+    return -strength / (square * sqrt(square)) * (p.x - center);
   }
-  double potential(const Particle& p) const { return -strength * p.mass / std::sqrt(distance_squared(p)); }
+  double potential(const Particle& p) const { return -strength * p.mass / sqrt(distance_squared(p)); }
   Vec3 drain(const Particle&) const { return Vec3::Zero(); }
   // The rate of a circular orbit at this distance plus that of passing by, 1/s.
   double rate(const Particle& p) const {
     const double square = distance_squared(p);
-    return std::sqrt(std::abs(strength) / (square * std::sqrt(square))) + p.v.norm() / std::sqrt(square);
+    return sqrt(std::abs(strength) / (square * sqrt(square))) + p.v.norm() / sqrt(square);
   }
   friend bool operator==(const Attractor&, const Attractor&) = default;
 

@@ -1,6 +1,5 @@
 #pragma once
 // The properties of a body at an instant, since bodies that merge change, and of all bodies.
-#include <algorithm>
 
 #include "physics/state.h"
 #include "physics/world.h"

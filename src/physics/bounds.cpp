@@ -2,8 +2,6 @@
 // holds in every unit of length.
 #include "physics/bounds.h"
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "std.h"
 
@@ -20,7 +18,7 @@ double smallest_of(const Volume& volume) {
 }  // namespace
 
 double smallest_size(const World& world) {
-  double smallest = numeric_limits<double>::infinity();
+  double smallest = infinity;
   if (world.volume.empty()) {
     for (const double radius : world.radius) smallest = min(smallest, radius);
   } else {

@@ -2,7 +2,6 @@
 // The range in which doubles can carry a World. A position is rounded to 2^-53 of itself.
 // At 10^12 times the smallest size that is 10^-4 of that size, and contact means little there.
 // Beyond the bounds nothing is computed: the loader refuses the scene, and a run ends.
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "std.h"
@@ -22,8 +21,8 @@ inline constexpr double largest_acceleration = 1e30;
 double smallest_size(const World& world);
 
 struct Bounds {
-  double place = numeric_limits<double>::infinity();  // m, of each coordinate
-  double speed = largest_speed;                       // m/s
+  double place = infinity;       // m, of each coordinate
+  double speed = largest_speed;  // m/s
 
   /// Whether a body's position (m) and velocity (m/s) are within the bounds. A number that is not finite never is.
   bool hold(const Vec3& x, const Vec3& v) const {

@@ -3,9 +3,6 @@
 // numerical integration.
 #include "physics/closed_motion.h"
 
-#include <cmath>
-#include <limits>
-
 #include "physics/world.h"
 #include "std.h"
 
@@ -59,7 +56,7 @@ optional<ClosedForces> closed_forces(const World& world, Entity body, double tim
 
 /// The positive root of speed t + acceleration t^2 / 2 = reach / 2, without cancellation.
 double step_within(double reach, double speed, double acceleration) {
-  return reach / (speed + std::sqrt(speed * speed + acceleration * reach));
+  return reach / (speed + sqrt(speed * speed + acceleration * reach));
 }
 
 ClosedMotion::ClosedMotion(const ClosedForces& forces, const Vec3& x, const Vec3& v, const Vec3& at_rest)
@@ -74,7 +71,7 @@ namespace {
 
 /// The acceleration (m/s^2) and the jerk (m/s^3) about an attractor.
 void fall(double strength, ClosedMotion::Point& there) {
-  const double square = there.place.squaredNorm(), factor = -strength / (square * std::sqrt(square));
+  const double square = there.place.squaredNorm(), factor = -strength / (square * sqrt(square));
   there.acceleration = factor * there.place;
   there.jerk = factor * (there.velocity - 3 * there.place.dot(there.velocity) / square * there.place);
 }
@@ -100,17 +97,17 @@ ClosedMotion::Point ClosedMotion::at(DoubleDouble t) const {
 }
 
 double ClosedMotion::rate(const Point& there) const {
-  if (const auto* swing = std::get_if<Oscillation>(&motion_)) return std::sqrt(swing->stiffness);
+  if (const auto* swing = std::get_if<Oscillation>(&motion_)) return sqrt(swing->stiffness);
   return there.velocity.norm() / there.place.norm();
 }
 
 double ClosedMotion::longest_step(const Point& there, double room) const {
   if (const auto* swing = std::get_if<Oscillation>(&motion_)) {
-    const double turn = std::sqrt(swing->stiffness);
+    const double turn = sqrt(swing->stiffness);
     const bool turns = 2 * turn > swing->fade;
     // An upper bound of the speed from there on, m/s.
     const double left = there.velocity.norm() + there.acceleration.norm() / turn;
-    return turns && left > room * turn ? 1 / turn : numeric_limits<double>::infinity();
+    return turns && left > room * turn ? 1 / turn : infinity;
   }
   return step_within(there.place.norm(), there.velocity.norm(), there.acceleration.norm());
 }

@@ -1,8 +1,8 @@
 #pragma once
 // F = -(c + q |u|) u, u = v - wind: linear (Stokes) and quadratic (Newton) drag of a medium in motion.
-#include <cmath>
 
 #include "physics/particle.h"
+#include "std.h"
 
 namespace carom {
 

@@ -1,6 +1,5 @@
 #pragma once
 // The number of a body or a fixed thing.
-#include <limits>
 
 #include "std.h"
 

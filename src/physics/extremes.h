@@ -1,6 +1,5 @@
 #pragma once
 // The least and the greatest value of a quantity of some bodies over a run.
-#include <limits>
 
 #include "physics/entity.h"
 #include "physics/quantity.h"

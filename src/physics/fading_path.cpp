@@ -3,8 +3,6 @@
 // function of a library, so that the bits are the same everywhere.
 #include "physics/fading_path.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {

@@ -3,10 +3,6 @@
 // scene.
 #include "physics/force.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/closed_motion.h"
 #include "physics/world.h"
 #include "std.h"
@@ -16,14 +12,13 @@ namespace carom {
 namespace {
 
 bool acts_for_ever(const Force& force) {
-  return force.from == 0 && force.until == numeric_limits<double>::infinity();
+  return force.from == 0 && force.until == infinity;
 }
 
 /// Whether a force of which this is true acts on a body at `time` (s).
 template <typename Is>
 bool any_acts(const World& world, Entity body, double time, const Is& is) {
-  return std::ranges::any_of(world.forces,
-                             [&](const Force& force) { return std::visit(is, force.law) && acts(force, body, time); });
+  return any_of(world.forces, [&](const Force& force) { return std::visit(is, force.law) && acts(force, body, time); });
 }
 
 double reach_of(const ForceLaw& law, const Vec3& x) {
@@ -60,7 +55,7 @@ double potential(const World& world, const Force& force, Entity body, const Vec3
 }
 
 double next_switch(const World& world, Entity body, double time) {
-  double next = numeric_limits<double>::infinity();
+  double next = infinity;
   for (const Force& force : world.forces) {
     if (!acts_on(force, body)) continue;
     for (double t : {force.from, force.until})
@@ -112,10 +107,10 @@ const Force* open_force(const World& world, Entity body, double time) {
 
 const Force* force_without_closed_form(const World& world) {
   if (bending_force(world) == nullptr) return nullptr;
-  const bool alike = std::ranges::all_of(world.forces, [](const Force& f) { return f.on.empty(); });
+  const bool alike = all_of(world.forces, [](const Force& f) { return f.on.empty(); });
   const Entity bodies = alike ? min<Entity>(1, world.body_count()) : world.body_count();
   for (Entity i = 0; i < bodies; ++i)
-    for (double time = 0; time < numeric_limits<double>::infinity(); time = next_switch(world, i, time))
+    for (double time = 0; time < infinity; time = next_switch(world, i, time))
       if (const Force* open = open_force(world, i, time)) return open;
   return nullptr;
 }

@@ -1,7 +1,7 @@
 // Each law's derivatives in closed form, with the limits at the places where a law has a corner.
 #include "physics/force_jacobian.h"
 
-#include <cmath>
+#include "std.h"
 
 namespace carom {
 
@@ -50,7 +50,7 @@ ForceJacobian jacobian(const Attractor& attractor, const Particle& p) {
   ForceJacobian j;
   if (!(square > 0)) return j;
   const Eigen::Matrix3d along = d * (d / square).transpose();
-  j.by_position = -attractor.strength / (square * std::sqrt(square)) * (Eigen::Matrix3d::Identity() - 3 * along);
+  j.by_position = -attractor.strength / (square * sqrt(square)) * (Eigen::Matrix3d::Identity() - 3 * along);
   return j;
 }
 

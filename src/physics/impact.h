@@ -1,7 +1,6 @@
 #pragma once
 // The effect of a collision: an impulse along the normal. The tangential velocity stays (frictionless spheres; chapter
 // 8).
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "physics/collision.h"
@@ -24,7 +23,7 @@ inline double impact_loss(double m1, double m2, double approach, double separati
 
 /// Mass (kg); infinite for fixed things.
 inline double impact_mass(const World& world, Entity e) {
-  return world.is_body(e) ? world.mass[e] : numeric_limits<double>::infinity();
+  return world.is_body(e) ? world.mass[e] : infinity;
 }
 
 /// What an impact on this thing is.

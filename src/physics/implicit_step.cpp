@@ -7,10 +7,6 @@
 // direction turns within a step, as that of a damper does across its line.
 #include "physics/implicit_step.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "numerics/lu_factors.h"
 #include "numerics/radau_points.h"
 #include "std.h"
@@ -20,7 +16,6 @@ namespace carom {
 namespace {
 
 constexpr size_t nodes = 7, axes = 3, unknowns = nodes * axes;
-constexpr double infinity = numeric_limits<double>::infinity();
 
 constexpr int most_passes = 12;
 // The allowed error of the stages, as a share of the step's allowed error.
@@ -191,7 +186,7 @@ struct ImplicitStep::Newton {
     for (size_t i = 0; i < nodes; ++i)
       for (size_t p = 0; p < axes; ++p) {
         const double change = b[axes * i + p];
-        if (!std::isfinite(change)) return infinity;
+        if (!isfinite(change)) return infinity;
         z[i][static_cast<Eigen::Index>(p)] += change;
         changed = max(changed, std::abs(change));
       }
@@ -262,7 +257,7 @@ double ImplicitStep::error_by_terms() const {
 
   const double last = max(size[2], size[3]), before = max(size[0], size[1]);
   if (!(last < before)) return last;
-  const double fading = std::sqrt(last / before);
+  const double fading = sqrt(last / before);
   return term_share * max(size[3], fading * size[2]) * fading;
 }
 
@@ -289,7 +284,7 @@ double ImplicitStep::error_by_start(const Vec3& a, const ForceJacobian& j) const
 
   double greatest = 0;
   for (const double missed : b) {
-    if (!std::isfinite(missed)) return infinity;
+    if (!isfinite(missed)) return infinity;
     greatest = max(greatest, std::abs(missed));
   }
   return start_share * greatest;

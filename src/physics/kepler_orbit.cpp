@@ -7,9 +7,6 @@
 // doubles.
 #include "physics/kepler_orbit.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/elementary.h"
 #include "std.h"
 
@@ -59,7 +56,7 @@ Constants constants(double mu, const Vec3& x, const Vec3& v) {
 SinCos true_anomaly(double mu, const Constants& c) {
   if (c.bend.hi == 0) return {0, 1};
   const double r = c.r.hi, e = c.bend.hi / mu;
-  const double sine = c.eta.hi / r * (std::sqrt(c.square.hi) / c.bend.hi);
+  const double sine = c.eta.hi / r * (sqrt(c.square.hi) / c.bend.hi);
   // Near a circle the direction of the pericentre is lost to rounding. It only has to fit the start's phase.
   if (c.beta.hi > 0 && e < 0.5) return {sine, mu / (c.beta.hi * r) * (c.zeta.hi / c.bend.hi - e)};
   return {sine, ((c.square / c.r - DoubleDouble{mu, 0}) / c.bend).hi};
@@ -112,7 +109,7 @@ DoubleDouble start_time(double mu, const Constants& c, double side, DoubleDouble
   if (bend.hi == 0) return {0, 0};
 
   // The parameter of the start, in doubles.
-  const double root = std::sqrt(std::abs(c.beta.hi));
+  const double root = sqrt(std::abs(c.beta.hi));
   double s = c.eta.hi / bend.hi;
   if (c.beta.hi > 0) s = arc_tangent(side * root * c.eta.hi, side * c.zeta.hi) / root;
   if (c.beta.hi < 0) s = arc_sinh(root * s) / root;
@@ -188,7 +185,7 @@ KeplerOrbit::Phase KeplerOrbit::phase(DoubleDouble t) const {
   constexpr int most = 32;
   const double half = 0.5 * period_.hi;
   for (int k = 0; k < most && std::abs(since.hi) > half; ++k) {
-    const double turns = std::floor(since.hi / period_.hi + 0.5);
+    const double turns = floor(since.hi / period_.hi + 0.5);
     since = since - period_ * DoubleDouble{turns, 0};
   }
 

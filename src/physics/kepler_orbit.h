@@ -2,10 +2,10 @@
 // Motion about a fixed centre under an inverse square law, x'' = -mu x / |x|^3 with x from the centre.
 // The path is an ellipse, a parabola or a hyperbola. It can be evaluated at any time directly.
 // Only + - * / and the square root reach the result.
-#include <cmath>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 

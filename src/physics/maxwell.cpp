@@ -2,7 +2,6 @@
 // of freedom, scaled by the deviation of a component.
 #include "physics/maxwell.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "numerics/elementary.h"
@@ -19,7 +18,7 @@ constexpr double least_share = 1e-12;
 double maxwell_density(double speed, int dimensions, double deviation) {
   const double ratio = speed / deviation, fall = exp_minus(ratio * ratio / 2) / deviation;
   if (dimensions == 2) return ratio * fall;
-  return std::sqrt(2 / std::numbers::pi) * (dimensions == 1 ? 1 : ratio * ratio) * fall;
+  return sqrt(2 / std::numbers::pi) * (dimensions == 1 ? 1 : ratio * ratio) * fall;
 }
 
 void EnergyByDirection::add(double mass, const Vec3& v) {

@@ -84,7 +84,7 @@ double mean_decay(double z) {
 Response response(double fade, double stiffness, double t) {
   const CharacteristicRoots of = roots(fade, stiffness);
   Response r = of.real ? exponentials(of, t) : sines(fade, t, of.half_gap);
-  const double angle = std::sqrt(stiffness) * t, gap = of.real ? 2 * of.half_gap.hi : 0;
+  const double angle = sqrt(stiffness) * t, gap = of.real ? 2 * of.half_gap.hi : 0;
 
   // Limits between the forms. Each form keeps all but two bits of the result within its own.
   constexpr double many = 1.5, far = 2, close = 0.75;

@@ -1,9 +1,9 @@
 #pragma once
 // Motion under linear springs of rest length 0, linear drag and constant forces, the same along every axis:
 // x'' = a - stiffness (x - x(0)) - fade x'. Only + - * / and the square root reach the result.
-#include <cmath>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 

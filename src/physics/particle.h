@@ -1,6 +1,5 @@
 #pragma once
 // The quantities that a force may depend on.
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "std.h"
@@ -8,7 +7,7 @@
 namespace carom {
 
 /// The reach of a force that is smooth everywhere (m).
-inline constexpr double everywhere = numeric_limits<double>::infinity();
+inline constexpr double everywhere = infinity;
 
 struct Particle {
   Vec3 x;       // m

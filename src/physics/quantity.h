@@ -1,6 +1,5 @@
 #pragma once
 // The quantities of a body's motion that measures name.
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "std.h"

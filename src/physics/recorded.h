@@ -1,6 +1,5 @@
 #pragma once
 // A part of the record of a motion: a piece of a path, or a collision.
-#include <cmath>
 
 #include "physics/collision.h"
 #include "physics/path_piece.h"

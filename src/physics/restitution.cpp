@@ -2,9 +2,6 @@
 // prints e1 e2 / 2. A pair's own value takes precedence, and the last match in the scene counts.
 #include "physics/restitution.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "std.h"
 
@@ -22,7 +19,7 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
     case Combine::product:
       return e1 * e2;
     case Combine::geometric_mean:
-      return std::sqrt(e1 * e2);
+      return sqrt(e1 * e2);
 
     case Combine::mass_weighted:
       return (m1 * e1 + m2 * e2) / (m1 + m2);
@@ -34,10 +31,9 @@ double combine_restitution(Combine rule, double e1, double m1, double e2, double
 
 bool may_be_plastic(const World& world) {
   const auto plastic = [](const auto& thing) { return thing.restitution == 0; };
-  return std::ranges::find(world.restitution, 0) != world.restitution.end() ||
-         std::ranges::any_of(world.planes, plastic) || std::ranges::any_of(world.walls, plastic) ||
-         std::ranges::any_of(world.obstacles, plastic) ||
-         std::ranges::any_of(world.pairs, [](const PairRestitution& pair) { return pair.value == 0; });
+  return contains(world.restitution, 0) || any_of(world.planes, plastic) || any_of(world.walls, plastic) ||
+         any_of(world.obstacles, plastic) ||
+         any_of(world.pairs, [](const PairRestitution& pair) { return pair.value == 0; });
 }
 
 double pair_restitution(const World& world, Entity a, Entity b) {

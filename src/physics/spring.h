@@ -2,9 +2,9 @@
 // F = -(k (|d| - l) + c d|d|/dt) d/|d|, d = x - anchor: a spring with a damper beside it, both along the line from the
 // anchor. At the anchor the damper acts along the body's velocity. A spring with a rest length has no direction there,
 // and does not push.
-#include <cmath>
 
 #include "physics/particle.h"
+#include "std.h"
 
 namespace carom {
 
@@ -36,7 +36,7 @@ struct Spring {
     return 0.5 * stiffness * stretch * stretch;
   }
   Vec3 drain(const Particle& p) const { return damper(p, p.x - anchor) / p.mass; }
-  double rate(const Particle& p) const { return std::sqrt(stiffness / p.mass) + damping / p.mass; }
+  double rate(const Particle& p) const { return sqrt(stiffness / p.mass) + damping / p.mass; }
   friend bool operator==(const Spring&, const Spring&) = default;
 
  private:

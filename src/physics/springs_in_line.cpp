@@ -3,9 +3,6 @@
 // ever shorter steps. One of these would then step over the turn, with an error that the estimate just allows.
 #include "physics/springs_in_line.h"
 
-#include <cmath>
-#include <limits>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "std.h"
@@ -44,7 +41,7 @@ SpringsInLine::SpringsInLine(const World& world, Entity body, double time, const
     if (!any()) along_ = direction(d.norm() > plainly * rounded ? d : v);
 
     // The body must be on the line, and move along it.
-    const double rate = std::sqrt(spring->stiffness / world.mass[body]), speed = v.norm() + rate * spring->rest_length;
+    const double rate = sqrt(spring->stiffness / world.mass[body]), speed = v.norm() + rate * spring->rest_length;
     const bool on_line = d.cross(along_).norm() <= off_line * d.norm() + rounded;
     if (along_.isZero(0) || !on_line || !(v.cross(along_).norm() <= off_line * speed)) {
       springs_.clear();
@@ -72,7 +69,7 @@ Vec3 SpringsInLine::correction(const Vec3& x) const {
 }
 
 double SpringsInLine::arrival(const Vec3& x, const PolynomialPath& path) const {
-  double first = numeric_limits<double>::infinity();
+  double first = infinity;
   for (const OneSpring& spring : springs_) {
     const double start = spring.side * (x - spring.anchor).dot(along_);
     const auto beyond = [&](double t) { return start + spring.side * path.displacement_at(t).dot(along_) < 0; };

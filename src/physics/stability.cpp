@@ -4,9 +4,6 @@
 #include "physics/stability.h"
 
 #include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "std.h"
 
@@ -46,12 +43,12 @@ double spectral_radius(const Matrix& of) {
   // Without cancellation where both eigenvalues are 1.
   const double apart = 0.5 * (of(0, 0) - of(1, 1)), half = 0.5 * of.trace();
   const double square = apart * apart + of(0, 1) * of(1, 0);
-  return square < 0 ? std::sqrt(of.determinant()) : std::abs(half) + std::sqrt(square);
+  return square < 0 ? sqrt(of.determinant()) : std::abs(half) + sqrt(square);
 }
 
 /// The rate at which a mode changes (1/s).
 double rate_of(const LinearMode& mode) {
-  return max(std::sqrt(mode.stiffness), mode.damping);
+  return max(sqrt(mode.stiffness), mode.damping);
 }
 
 double stable_step(Integrator method, const LinearMode& mode) {
@@ -74,7 +71,7 @@ double growth(Integrator method, const LinearMode& mode, double h) {
 }
 
 double stable_step(Integrator method, const ForceJacobian& slopes, LinearMode& mode) {
-  double least = numeric_limits<double>::infinity();
+  double least = infinity;
   for (const Eigen::Matrix3d* const of : {&slopes.by_position, &slopes.by_velocity}) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(0.5 * (*of + of->transpose()));
     for (int k = 0; k < 3; ++k) {

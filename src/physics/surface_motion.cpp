@@ -2,8 +2,6 @@
 // windows cost no digits. The instants of windows stay those of the scene: no running time is added up.
 #include "physics/surface_motion.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -44,7 +42,7 @@ vector<MotionLeg> legs_of(span<const MotionWindow> windows) {
     if (window.velocity.isZero(0)) continue;
     if (legs.empty() && window.from > 0) begin(0, Vec3::Zero());
     begin(window.from, window.velocity);
-    if (window.until < numeric_limits<double>::infinity()) begin(window.until, Vec3::Zero());
+    if (window.until < infinity) begin(window.until, Vec3::Zero());
   }
 
   return legs;

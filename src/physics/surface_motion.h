@@ -2,7 +2,6 @@
 // Fixed things that move: at constant velocities in windows of time. Outside the windows a thing stands where it has
 // arrived. Its motion is a list of legs, and each leg starts from an exact sum of those before it. Positions therefore
 // have no error that grows. On a plane only the velocity along its normal has an effect, because there is no friction.
-#include <limits>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
@@ -12,9 +11,9 @@ namespace carom {
 
 /// A window of time in which a fixed thing moves.
 struct MotionWindow {
-  double from = 0;                                    // s
-  double until = numeric_limits<double>::infinity();  // s
-  Vec3 velocity = Vec3(0, 0, 0);                      // m/s
+  double from = 0;                // s
+  double until = infinity;        // s
+  Vec3 velocity = Vec3(0, 0, 0);  // m/s
 };
 
 /// A time from which on a fixed thing has a constant velocity, which may be zero. It lasts until the next leg starts.

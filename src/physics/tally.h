@@ -1,7 +1,5 @@
 #pragma once
 // Running sums of a run: what summary.csv needs without a table of collisions.
-#include <cmath>
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "physics/collision.h"

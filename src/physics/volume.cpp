@@ -1,8 +1,9 @@
 // Extents of the three volumes in closed form.
 #include "physics/volume.h"
 
-#include <cmath>
 #include <numbers>
+
+#include "std.h"
 
 namespace carom {
 
@@ -11,7 +12,7 @@ double Volume::reach() const {
     case Shape::sphere:
       return half.x();
     case Shape::cylinder:
-      return std::sqrt(half.x() * half.x() + half.y() * half.y());
+      return sqrt(half.x() * half.x() + half.y() * half.y());
     case Shape::box:
       break;
   }
@@ -36,7 +37,7 @@ double Volume::support(const Vec3& n) const {
     case Shape::sphere:
       return half.x();
     case Shape::cylinder:
-      return half.x() * std::sqrt(n.x() * n.x() + n.z() * n.z()) + half.y() * std::abs(n.y());
+      return half.x() * sqrt(n.x() * n.x() + n.z() * n.z()) + half.y() * std::abs(n.y());
     case Shape::box:
       break;
   }

@@ -1,14 +1,12 @@
 // What forces act on, and where fixed things that move are.
 #include "physics/world.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
 
 bool acts_on(const Force& force, Entity body) {
-  return force.on.empty() || std::ranges::binary_search(force.on, body);
+  return force.on.empty() || ranges::binary_search(force.on, body);
 }
 
 bool acts(const Force& force, Entity body, double time) {

@@ -50,9 +50,9 @@ struct String {
 /// A force in a window of time, on some bodies or on all.
 struct Force {
   ForceLaw law;
-  double from = 0;                                    // s, when it sets in
-  double until = numeric_limits<double>::infinity();  // s, when it ceases
-  vector<Entity> on{};                                // ascending; empty: all bodies
+  double from = 0;          // s, when it sets in
+  double until = infinity;  // s, when it ceases
+  vector<Entity> on{};      // ascending; empty: all bodies
 };
 
 /// Whether a force acts on a body, at some time and at `time` (s).

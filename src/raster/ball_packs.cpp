@@ -1,8 +1,6 @@
 // Copies the balls of each cell: a test of sixteen then reads five neighbouring lines of the cache.
 #include "raster/ball_packs.h"
 
-#include <algorithm>
-#include <limits>
 #include <tuple>
 
 #include "std.h"

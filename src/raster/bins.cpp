@@ -2,7 +2,6 @@
 // back, and can end where all its pixels are covered.
 #include "raster/bins.h"
 
-#include <algorithm>
 #include <numeric>
 
 #include "std.h"

@@ -1,6 +1,5 @@
 #pragma once
 // Three floats in the camera's frame.
-#include <cmath>
 
 #include "std.h"
 

@@ -2,9 +2,6 @@
 // A test of all pairs would grow with the square of their number.
 #include "raster/light_grid.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -78,7 +75,7 @@ void LightGrid::measure(const Shot& shot) {
     e.u0 = e.v0 = -1, e.u1 = e.v1 = 1;
     e.side = std::clamp(int(std::sqrt(double(shot.solids.size()))), 1, most_cells / 2);
   } else {
-    const float widest = *std::ranges::max_element(blur_);
+    const float widest = *ranges::max_element(blur_);
     e.u0 -= widest, e.v0 -= widest, e.u1 += widest, e.v1 += widest;
     e.side = std::clamp(int(std::max(e.u1 - e.u0, e.v1 - e.v0) / width), 1, most_cells);
   }

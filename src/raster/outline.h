@@ -1,8 +1,8 @@
 #pragma once
 // The outline of a ball in the plane z = 1 before the eye.
-#include <cmath>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 

@@ -2,10 +2,7 @@
 // by less than a twentieth of a pixel.
 #include "raster/polygon.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
 #include "std.h"
 
@@ -19,8 +16,7 @@ double side(const PlanePoint& a, const PlanePoint& b, const PlanePoint& p) {
 /// The convex hull, counterclockwise, by the monotone chain (Andrew 1979).
 vector<PlanePoint> hull_of(vector<PlanePoint> points) {
   if (points.size() < 3) return {};
-  std::ranges::sort(points,
-                    [](const PlanePoint& a, const PlanePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  ranges::sort(points, [](const PlanePoint& a, const PlanePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
 
   // The lower half, then the upper one.
   vector<PlanePoint> hull;
@@ -31,7 +27,7 @@ vector<PlanePoint> hull_of(vector<PlanePoint> points) {
       hull.push_back(p);
     }
     hull.pop_back();
-    std::ranges::reverse(points);
+    ranges::reverse(points);
   }
 
   return hull;

@@ -1,9 +1,6 @@
 // Computes outlines. A ball has an ellipse, by which its edge is smooth and its depth free of cancellation.
 #include "raster/silhouettes.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "raster/outline.h"
 #include "raster/polygon.h"
 #include "std.h"

@@ -1,7 +1,6 @@
 // Each thread takes the next part that is not taken. A thread keeps its memory for all pictures.
 #include "raster/threads.h"
 
-#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <cstdlib>

@@ -1,8 +1,6 @@
 // The kernel in each vector width.
 #include "raster/tile.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "numerics/processor.h"

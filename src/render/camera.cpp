@@ -2,9 +2,6 @@
 // single planes would accept spheres beyond its edges.
 #include "render/camera.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "scene/scene.h"
@@ -26,7 +23,7 @@ double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
 double distance_to_quad(const Vec3& p, span<const Vec3, 4> q) {
   const Vec3 n = (q[2] - q[0]).cross(q[3] - q[1]).normalized();
   bool inside = true;
-  double nearest = numeric_limits<double>::infinity();
+  double nearest = infinity;
   for (size_t i = 0; i < 4; ++i) {
     const Vec3 &a = q[i], &b = q[(i + 1) % 4];
     if (n.dot((b - a).cross(p - a)) < 0) inside = false;
@@ -69,7 +66,7 @@ bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3
   const Vec3 offset = center - camera.eye;
   const double x = std::abs(view.right.dot(offset)), y = std::abs(view.up.dot(offset)), z = view.forward.dot(offset);
   const double tx = std::tan(view.fov_x * degree / 2), ty = std::tan(view.fov_y * degree / 2);
-  const double beyond_right = (x - z * tx) / std::hypot(1, tx), beyond_top = (y - z * ty) / std::hypot(1, ty);
+  const double beyond_right = (x - z * tx) / hypot(1, tx), beyond_top = (y - z * ty) / hypot(1, ty);
   const double beyond = max({beyond_right, beyond_top, camera.near - z, z - camera.far});
 
   if (beyond <= 0) return true;

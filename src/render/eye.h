@@ -2,11 +2,11 @@
 // The camera's frame in the render passes: x to the right, y up, z ahead, the eye at the origin. A ray through a
 // picture point is (x, y, 1). World coordinates are converted to this frame in double precision. Floats are used only
 // after that.
-#include <cmath>
 #include <numbers>
 
 #include "raster/shot.h"
 #include "render/camera.h"
+#include "std.h"
 
 namespace carom {
 
@@ -19,7 +19,7 @@ struct Eye {
     tan_x = std::tan(view.fov_x * std::numbers::pi / 360);
     tan_y = std::tan(view.fov_y * std::numbers::pi / 360);
     pixel = 2 * tan_x / s.width;
-    per_cos_x = std::sqrt(1 + tan_x * tan_x), per_cos_y = std::sqrt(1 + tan_y * tan_y);
+    per_cos_x = sqrt(1 + tan_x * tan_x), per_cos_y = sqrt(1 + tan_y * tan_y);
   }
   Vec3 direction(const Vec3& world) const {
     return Vec3(view.right.dot(world), view.up.dot(world), view.forward.dot(world));

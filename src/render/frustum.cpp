@@ -3,8 +3,6 @@
 // of four linear inequalities. Boxes around things would be looser in perspective.
 #include "render/frustum.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "std.h"
@@ -56,7 +54,7 @@ void Frustum::add(Reach& reach, const Vec3& center, const Volume& volume) const 
 Vec3 Frustum::eye(const Reach& reach) const {
   // With the eye at (x, y, z) to the right, up and ahead: tan z + x <= left and tan z - x <= right, and so for bottom
   // and top.
-  const double wide = std::hypot(1, tan_x_), high = std::hypot(1, tan_y_);
+  const double wide = hypot(1, tan_x_), high = hypot(1, tan_y_);
   const double left = wide * reach.least[0], right = wide * reach.least[1];
   const double bottom = high * reach.least[2], top = high * reach.least[3];
   const double z = min((left + right) / (2 * tan_x_), (bottom + top) / (2 * tan_y_));

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <utility>
 
 #include "render/gl_threads.h"
 #include "render/render_error.h"
@@ -125,7 +124,7 @@ Framebuffer make_framebuffer(span<const GLuint> colors, GLuint depth) {
 
 Program::Program(std::initializer_list<string_view> vertex, std::initializer_list<string_view> fragment)
     : handle_(gl::CreateProgram()) {
-  for (const auto& [kind, parts] : {std::pair{GL_VERTEX_SHADER, vertex}, std::pair{GL_FRAGMENT_SHADER, fragment}}) {
+  for (const auto& [kind, parts] : {pair{GL_VERTEX_SHADER, vertex}, pair{GL_FRAGMENT_SHADER, fragment}}) {
     const GLuint shader = compile(GLenum(kind), parts);
     gl::AttachShader(handle_.name(), shader);
     gl::DeleteShader(shader);

@@ -1,7 +1,6 @@
 #pragma once
 // The part of OpenGL that the render passes use: an off-screen context, and objects that free themselves.
 #include <initializer_list>
-#include <utility>
 
 #include "render/gl_functions.h"
 #include "std.h"

@@ -2,7 +2,6 @@
 // So as many threads are started and ended before, and llvmpipe's own are counted by their names in /proc.
 #include "render/gl_threads.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -66,7 +65,7 @@ void choose_threads() {
   chosen = thread_count();
   // llvmpipe starts as many again for other work, and one for its cache.
   if (!can_have(2 * chosen + 1)) chosen = 0;
-  setenv(variable, std::to_string(chosen).c_str(), 1);
+  setenv(variable, to_string(chosen).c_str(), 1);
 }
 
 void check_threads() {

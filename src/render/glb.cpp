@@ -4,11 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <numbers>
-#include <utility>
 
 #include "physics/world.h"
 #include "render/camera.h"
@@ -68,7 +64,7 @@ class GlbBuilder {
   string free_name(const string& name) {
     string free = name;
     const auto taken = [&](const Json& node) { return node["name"] == free; };
-    for (int i = 2; std::ranges::any_of(nodes(), taken); ++i) free = fmt::format("{} {}", name, i);
+    for (int i = 2; any_of(nodes(), taken); ++i) free = fmt::format("{} {}", name, i);
     return free;
   }
 
@@ -162,7 +158,7 @@ class GlbBuilder {
     const auto moved = [&](const Camera& camera) {
       return camera.eye != camera_.eye || camera.target != camera_.target;
     };
-    if (std::ranges::any_of(motion_.cameras, moved)) animate_camera();
+    if (any_of(motion_.cameras, moved)) animate_camera();
     for (const MovingThing& thing : moving_) animate_thing(thing);
 
     if (!channels_.empty())
@@ -190,7 +186,7 @@ class GlbBuilder {
       vector<double> times;
       vector<array<float, 3>> scales;
     };
-    std::map<Entity, Steps> steps;
+    map<Entity, Steps> steps;
 
     for (const KeyedMotion::Change& change : motion_.changes) {
       const Vec3& first = first_scales_[change.body];
@@ -258,7 +254,7 @@ class GlbBuilder {
   vector<MovingThing> moving_;
   size_t camera_node_ = 0;
   Json channels_ = Json::array(), samplers_ = Json::array();
-  std::map<vector<double>, size_t> times_;  // accessors
+  map<vector<double>, size_t> times_;  // accessors
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 // Each buffer view starts at a multiple of four bytes, as its numbers and the chunks of the file require.
 #include "render/glb_file.h"
 
-#include <algorithm>
 #include <type_traits>
 
 #include "render/renderer.h"

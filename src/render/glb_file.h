@@ -1,6 +1,5 @@
 #pragma once
 // A binary glTF 2 file in the making: its JSON, and one binary chunk with its numbers and pictures.
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "std.h"
@@ -35,7 +34,7 @@ class GlbFile {
 
   nlohmann::ordered_json json_ = {{"asset", {{"version", "2.0"}, {"generator", "carom " CAROM_VERSION}}}};
   string binary_;
-  std::map<string, size_t> known_;  // by list and item
+  map<string, size_t> known_;  // by list and item
 };
 
 }  // namespace carom

@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <limits>
 
 #include "render/eye.h"
 #include "render/lighting.h"
@@ -24,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 vector<array<float, 3>> rows_of(const vector<Vec3>& list) {
   vector<array<float, 3>> rows;
-  std::ranges::transform(list, std::back_inserter(rows), [](const Vec3& v) { return floats(v); });
+  ranges::transform(list, std::back_inserter(rows), [](const Vec3& v) { return floats(v); });
   return rows;
 }
 
@@ -80,7 +78,7 @@ int mode_of_axis(Wrap wrap) {
 Json GlbMeshes::primitive(const Mesh& mesh, size_t material) {
   constexpr auto vertices = GlbFile::Use::vertices;
   vector<Vec3> normals = mesh.normals;
-  std::ranges::replace_if(
+  ranges::replace_if(
       normals, [](const Vec3& n) { return n.isZero(0); }, Vec3(0, 1, 0));
   Json attributes{{"POSITION", file_.add_rows(rows_of(mesh.vertices), vertices)},
                   {"NORMAL", file_.add_rows(rows_of(normals), vertices)}};
@@ -90,7 +88,7 @@ Json GlbMeshes::primitive(const Mesh& mesh, size_t material) {
   if (!paint.parts.empty() && paint.parts.front().texture > 0)
     attributes["TEXCOORD_0"] = file_.add_rows(paint.uv, vertices);
   const array<float, 3> white{1, 1, 1};
-  if (std::ranges::any_of(paint.tint, [&](const auto& tint) { return tint != white; })) {
+  if (any_of(paint.tint, [&](const auto& tint) { return tint != white; })) {
     vector<array<float, 4>> colors;
     for (const auto& tint : paint.tint) colors.push_back({tint[0], tint[1], tint[2], 1});
     attributes["COLOR_0"] = file_.add_rows(colors, vertices);
@@ -130,7 +128,7 @@ size_t GlbMeshes::single(const Mesh& mesh, const Color& color, bool two_sided, c
   Json primitives = Json::array();
   if (mesh.paint.parts.empty()) primitives.push_back(primitive(mesh, material(color, two_sided)));
 
-  std::map<uint32_t, size_t> images;  // by texture
+  map<uint32_t, size_t> images;  // by texture
   size_t first = 0;
   for (const MeshPart& part : mesh.paint.parts) {
     if (part.triangles == 0) continue;
@@ -168,7 +166,7 @@ size_t GlbMeshes::file(const MeshUse& use, const Color& color) {
     if (const auto same = files_.find({use.file, how, use.own_colors, of}); same != files_.end()) return same->second;
   const Mesh mesh = drawn_mesh(use);
   const auto& parts = mesh.paint.parts;
-  const bool colored = !parts.empty() && std::ranges::all_of(parts, [](const MeshPart& part) { return part.colored; });
+  const bool colored = !parts.empty() && all_of(parts, [](const MeshPart& part) { return part.colored; });
   const string name = parts.empty() ? "mesh " + hex_text(color) : std::filesystem::path(use.file).stem().string();
   return files_[{use.file, how, use.own_colors, colored ? any : own}] = single(mesh, color, false, name);
 }

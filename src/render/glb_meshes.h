@@ -1,8 +1,6 @@
 #pragma once
 // The meshes, materials and textures of a glTF file. Things of one shape and colour share a mesh.
-#include <map>
 #include <tuple>
-#include <utility>
 
 #include "render/glb_file.h"
 #include "render/model.h"
@@ -34,9 +32,9 @@ class GlbMeshes {
   size_t image(const MeshTexture& picture);
 
   GlbFile& file_;
-  std::map<string, size_t> images_;  // by their bytes
-  std::map<std::pair<Shape, Srgb>, size_t> volumes_;
-  std::map<Use, size_t> files_;
+  map<string, size_t> images_;  // by their bytes
+  map<pair<Shape, Srgb>, size_t> volumes_;
+  map<Use, size_t> files_;
 };
 
 }  // namespace carom

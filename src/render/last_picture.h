@@ -1,7 +1,5 @@
 #pragma once
 // All that a picture depends on, as of the last one.
-#include <algorithm>
-#include <utility>
 
 #include "physics/state.h"
 #include "render/drawing.h"

@@ -2,8 +2,6 @@
 // Light does not weaken with distance.
 #include "render/lighting.h"
 
-#include <algorithm>
-
 #include "numerics/srgb.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -13,14 +13,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <new>
-#include <stdexcept>
 
 #include "render/mesh_import.h"
 #include "render/mesh_reply.h"
@@ -41,7 +39,7 @@ function<void()>& stop_check() {
 }
 
 [[noreturn]] void fail(const string& path, const string& why) {
-  throw std::runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
+  throw runtime_error(fmt::format("cannot read the mesh {}: {}", path, why));
 }
 
 /// Checks that the file is a regular one of permitted size with a known ending. Returns the ending in lower case.
@@ -52,7 +50,7 @@ string check_file(const string& path, const MeshLimits& limits) {
     if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
 
   const auto& known = mesh_endings();
-  if (std::ranges::find(known, ending) == known.end())
+  if (!contains(known, ending))
     fail(path, fmt::format("meshes are read from files that end in .{}", joined(known, ", .")));
 
   // Opening must not wait for a queue or a device.
@@ -267,7 +265,7 @@ Mesh read(const string& path, bool painted, const MeshLimits& limits) {
     return receive_mesh(
         {[&](void* bytes, size_t size) { return reader.receive(bytes, size); }, [&] { return reader.trouble(limits); }},
         limits);
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     fail(path, error.what());
   }
 }

@@ -11,7 +11,7 @@ namespace carom {
 /// Reads a Wavefront (.obj), STL (.stl) or glTF 2 (.gltf, .glb) file. Of other files it reads only those in the same
 /// folder and below that the file names. Polygons become triangles, and vertices at one position are joined. Missing
 /// normals are computed, smooth where faces meet at less than 45 degrees. The mesh has no paint. Throws
-/// std::runtime_error with the path and the fault.
+/// runtime_error with the path and the fault.
 Mesh read_mesh(const string& path, const MeshLimits& limits = {});
 
 /// The same with the file's colours: base colours and their textures (PNG, JPEG), colours of vertices, and holes by

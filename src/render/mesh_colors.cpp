@@ -2,9 +2,6 @@
 // is a sum over points of all triangles: bodies of less than a pixel have it.
 #include "render/mesh_colors.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "render/texture_levels.h"
 #include "std.h"
 
@@ -31,9 +28,9 @@ GLint mode_of(Wrap wrap) {
 
 /// The pixel of a side of `length` at x, 1 a side.
 uint32_t pixel_at(float x, Wrap wrap, uint32_t length) {
-  float inside = x - std::floor(x);
+  float inside = x - floor(x);
   if (wrap == Wrap::clamp) inside = clamp(x, 0.0F, 1.0F);
-  if (wrap == Wrap::mirror) inside = 1 - std::abs(1 - (x - 2 * std::floor(x / 2)));
+  if (wrap == Wrap::mirror) inside = 1 - std::abs(1 - (x - 2 * floor(x / 2)));
   return min(uint32_t(inside * float(length)), length - 1);
 }
 
@@ -99,7 +96,7 @@ MeshColors::MeshColors(const Mesh& mesh) : parts_(mesh.paint.parts), rows_(gl::m
 }
 
 bool MeshColors::has_holes() const {
-  return std::ranges::any_of(parts_, [](const MeshPart& part) { return part.cutoff > 0; });
+  return any_of(parts_, [](const MeshPart& part) { return part.cutoff > 0; });
 }
 
 void MeshColors::bind(const MeshPart& part) const {
@@ -111,7 +108,7 @@ void MeshColors::bind(const MeshPart& part) const {
 
 MeanColor mean_color(const Mesh& mesh) {
   const double triangles = double(mesh.triangles.size()) / 3;
-  const int n = max(1, int(std::ceil(std::sqrt(least_points / triangles))));
+  const int n = max(1, int(ceil(sqrt(least_points / triangles))));
 
   array<double, 3> sum{};
   double area = 0, plain = 0;

@@ -6,11 +6,8 @@
 #include <assimp/MemoryIOWrapper.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <map>
-#include <stdexcept>
 
 #include "std.h"
 #include "yaml/other_case.h"
@@ -125,7 +122,7 @@ TextureLine texture_line(string_view line) {
 }
 
 /// Makes materials white that give no colour: a texture alone then has its own. Options of textures become placements.
-string with_white(const string& text, std::set<string>& defined, std::map<string, WavefrontPlacement>& placements) {
+string with_white(const string& text, set<string>& defined, map<string, WavefrontPlacement>& placements) {
   string out, material;
   for_lines(text, [&](size_t, string_view line) {
     if (opens(line, "map_Kd")) {
@@ -147,7 +144,7 @@ string with_white(const string& text, std::set<string>& defined, std::map<string
   return out;
 }
 
-/// Throws std::runtime_error if a texture has an option that is not used.
+/// Throws runtime_error if a texture has an option that is not used.
 void check_options(const string& name, const string& text) {
   size_t number = 1, counted = 0;
   for_lines(text, [&](size_t at, string_view line) {
@@ -155,8 +152,8 @@ void check_options(const string& name, const string& text) {
     counted = at;
     const string unused = opens(line, "map_Kd") ? texture_line(line).unused : "";
     if (!unused.empty())
-      throw std::runtime_error(fmt::format("line {} of its material file {}: the option {} of map_Kd is not used. {}",
-                                           number, name, unused, remedy("remove the option")));
+      throw runtime_error(fmt::format("line {} of its material file {}: the option {} of map_Kd is not used. {}",
+                                      number, name, unused, remedy("remove the option")));
   });
 }
 
@@ -173,7 +170,7 @@ string whole(const std::filesystem::path& file) {
 
 Assimp::IOStream* stream_of(const string& text) {
   auto bytes = make_unique<uint8_t[]>(text.size());
-  std::ranges::copy(text, bytes.get());
+  ranges::copy(text, bytes.get());
   return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
 }
 
@@ -244,8 +241,8 @@ bool MeshFiles::mentions_colors() const {
   const WavefrontNames names = names_of(text);
   if (names.changes == 0 || names.libraries.empty()) return names.vertex_colors;
   if (names.changes > most_changes)
-    throw std::runtime_error(fmt::format("it changes its material more than {} times. {}", most_changes,
-                                         remedy("sort its faces by material")));
+    throw runtime_error(fmt::format("it changes its material more than {} times. {}", most_changes,
+                                    remedy("sort its faces by material")));
   for (const string& name : names.libraries) check_options(name, whole(found("material file", name)));
   return true;
 }
@@ -272,14 +269,14 @@ std::filesystem::path MeshFiles::found(const string& what, const string& name, s
     way = "write its name as on the disk";
   }
 
-  throw std::runtime_error(fmt::format("its {} {} {}. Remedy: {}{}", what, name, fault, way, instead));
+  throw runtime_error(fmt::format("its {} {} {}. Remedy: {}{}", what, name, fault, way, instead));
 }
 
 string MeshFiles::read(const string& what, const string& name, uint64_t most_bytes) const {
   const std::filesystem::path file = found(what, name);
   const uint64_t size = std::filesystem::file_size(file);
   if (size > most_bytes)
-    throw std::runtime_error(fmt::format("its {} {} has {} bytes; at most {} are read", what, name, size, most_bytes));
+    throw runtime_error(fmt::format("its {} {} has {} bytes; at most {} are read", what, name, size, most_bytes));
   return whole(file);
 }
 

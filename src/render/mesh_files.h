@@ -4,8 +4,6 @@
 #include <assimp/DefaultIOSystem.h>
 
 #include <filesystem>
-#include <map>
-#include <set>
 
 #include "std.h"
 
@@ -32,7 +30,7 @@ class MeshFiles : public Assimp::DefaultIOSystem {
   /// Returns nullptr for a file that may not be opened, or written. The caller owns the stream.
   Assimp::IOStream* Open(const char* file, const char* mode) override;
 
-  /// Whether the text of the mesh mentions colours or materials. Throws std::runtime_error if it names material files
+  /// Whether the text of the mesh mentions colours or materials. Throws runtime_error if it names material files
   /// that are not there or have options that are not used, or changes its material too often.
   bool mentions_colors() const;
   /// Whether a material file that was opened defines this material.
@@ -42,10 +40,10 @@ class MeshFiles : public Assimp::DefaultIOSystem {
     const auto found = placements_.find(material);
     return found == placements_.end() ? WavefrontPlacement{} : found->second;
   }
-  /// Throws std::runtime_error if assimp found no file of a name that the mesh gives it.
+  /// Throws runtime_error if assimp found no file of a name that the mesh gives it.
   void check_opened() const;
   /// The bytes of a file by the name that the mesh gives it. `what`: "texture", for the error. Throws
-  /// std::runtime_error.
+  /// runtime_error.
   string read(const string& what, const string& name, uint64_t most_bytes) const;
 
  private:
@@ -59,8 +57,8 @@ class MeshFiles : public Assimp::DefaultIOSystem {
   bool painted_;
   std::filesystem::path folder_;
   string unopened_;  // the first file that could not be opened, by its name in the mesh
-  std::set<string> defined_;
-  std::map<string, WavefrontPlacement> placements_;  // by material, where it is not the usual one
+  set<string> defined_;
+  map<string, WavefrontPlacement> placements_;  // by material, where it is not the usual one
 };
 
 }  // namespace carom

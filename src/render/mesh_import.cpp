@@ -11,18 +11,14 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
 #include <assimp/LogStream.hpp>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <new>
 #include <numeric>
-#include <stdexcept>
 
 #include "numerics/srgb.h"
 #include "numerics/vec3.h"
@@ -63,7 +59,7 @@ vector<uint32_t> places(const ImportedMesh& mesh, size_t first) {
   vector<uint32_t> place(mesh.vertices.size() / 3 - first);
   std::iota(place.begin(), place.end(), 0U);
   if (mesh.paint.uv.empty()) return place;
-  std::map<array<float, 3>, uint32_t> known;
+  map<array<float, 3>, uint32_t> known;
   for (uint32_t v = 0; v < place.size(); ++v) {
     const float* p = &mesh.vertices[3 * (first + v)];
     place[v] = known.try_emplace({p[0], p[1], p[2]}, v).first->second;
@@ -142,13 +138,13 @@ void make_normals(ImportedMesh& mesh, size_t first, size_t triangle) {
 }
 
 void check_count(size_t count, size_t most, const char* what) {
-  if (count > most) throw std::runtime_error("it has more than " + std::to_string(most) + " " + what);
+  if (count > most) throw runtime_error("it has more than " + to_string(most) + " " + what);
 }
 
 void append_vertices(const aiMesh& part, ImportedMesh& mesh) {
   for (unsigned i = 0; i < part.mNumVertices; ++i)
     for (const float x : {part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z}) {
-      if (!std::isfinite(x)) throw std::runtime_error("a vertex is not finite");
+      if (!isfinite(x)) throw runtime_error("a vertex is not finite");
       mesh.vertices.push_back(x);
     }
 }
@@ -158,7 +154,7 @@ void append_triangles(const aiMesh& part, size_t first, ImportedMesh& mesh) {
     const aiFace& face = part.mFaces[i];
     if (face.mNumIndices != 3) continue;
     for (unsigned k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices) throw std::runtime_error("a triangle refers to a missing vertex");
+      if (face.mIndices[k] >= part.mNumVertices) throw runtime_error("a triangle refers to a missing vertex");
       mesh.triangles.push_back(uint32_t(first + face.mIndices[k]));
     }
   }
@@ -167,8 +163,8 @@ void append_triangles(const aiMesh& part, size_t first, ImportedMesh& mesh) {
 void append_normals(const aiMesh& part, ImportedMesh& mesh) {
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& n = part.mNormals[i];
-    const float length = std::sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
-    const bool known = std::isfinite(length) && length > 0;
+    const float length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+    const bool known = isfinite(length) && length > 0;
     for (const float x : {n.x, n.y, n.z}) mesh.normals.push_back(known ? x / length : 0);
   }
 }
@@ -181,7 +177,7 @@ void append_paint(const aiMesh& part, const PartSource& source, MeshPaint& paint
     array<float, 2> at{};
     for (size_t k = 0; uv && k < 2; ++k) {
       at[k] = source.uv[k][0] * uv[i].x + source.uv[k][1] * uv[i].y + source.uv[k][2];
-      if (!std::isfinite(at[k])) at[k] = 0;
+      if (!isfinite(at[k])) at[k] = 0;
     }
 
     paint.uv.push_back(at);
@@ -222,12 +218,12 @@ ImportedMesh imported_stl(const string& path, const MeshLimits& limits) {
   const string bytes{std::istreambuf_iterator<char>(in), {}};
   const vector<array<float, 3>> corners = stl_corners(bytes);
   check_count(corners.size() / 3, limits.triangles, "triangles");
-  if (corners.empty()) throw std::runtime_error("it has no triangles");
+  if (corners.empty()) throw runtime_error("it has no triangles");
 
   // By place, with a number each. The first corner of a place comes first.
   vector<uint32_t> order(corners.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return corners[a] < corners[b]; });
+  ranges::stable_sort(order, [&](uint32_t a, uint32_t b) { return corners[a] < corners[b]; });
 
   vector<uint32_t> first(corners.size());
   for (size_t i = 0; i < order.size(); ++i)
@@ -285,14 +281,14 @@ ImportedMesh imported(const string& path, const string& ending, bool painted, co
     const string text = importer.GetErrorString();
     if (text == "std::bad_alloc") throw std::bad_alloc();
     for (const char* empty : {"no faces", "No meshes remaining"})
-      if (text.find(empty) != string::npos) throw std::runtime_error("it has no triangles");
+      if (text.find(empty) != string::npos) throw runtime_error("it has no triangles");
 
     files->check_opened();
-    throw std::runtime_error(fmt::format("it is damaged, or no .{} file: {}. Remedy: export it again", ending, text));
+    throw runtime_error(fmt::format("it is damaged, or no .{} file: {}. Remedy: export it again", ending, text));
   }
 
   Assimp::DefaultLogger::get()->detachStream(&missing, Assimp::Logger::Warn);
-  if (missing.seen()) throw std::runtime_error("a triangle refers to a missing vertex. Remedy: export it again");
+  if (missing.seen()) throw runtime_error("a triangle refers to a missing vertex. Remedy: export it again");
 
   ImportedMesh mesh;
   optional<MeshMaterials> materials;
@@ -303,7 +299,7 @@ ImportedMesh imported(const string& path, const string& ending, bool painted, co
 
   for (unsigned i = 0; i < scene->mNumMeshes; ++i)
     append(*scene->mMeshes[i], materials ? &*materials : nullptr, mesh, limits);
-  if (mesh.triangles.empty()) throw std::runtime_error("it has no triangles");
+  if (mesh.triangles.empty()) throw runtime_error("it has no triangles");
 
   if (materials) mesh.paint.textures = materials->take_textures();
   return mesh;
@@ -323,7 +319,7 @@ ImportedMesh import_mesh(const string& path, const string& ending, bool painted,
   if (painted && MeshFiles(path, ending, true).mentions_colors()) {
     ImportedMesh mesh = imported(path, ending, true, limits);
     const auto& parts = mesh.paint.parts;
-    if (std::ranges::any_of(parts, [](const MeshPart& part) { return part.colored != 0; })) return mesh;
+    if (any_of(parts, [](const MeshPart& part) { return part.colored != 0; })) return mesh;
   }
   return imported(path, ending, false, limits);
 }

@@ -6,11 +6,6 @@
 #include <assimp/material.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <stdexcept>
-
 #include "numerics/srgb.h"
 #include "render/texture_decode.h"
 #include "std.h"
@@ -47,7 +42,7 @@ void add_transform(const aiUVTransform& t, PartSource& source) {
   const array<array<float, 3>, 2> uv = {{{c * sx, -s * sy, offset_u + s * sy}, {-s * sx, -c * sy, offset_v + c * sy}}};
   for (const auto& row : uv)
     for (const float x : row)
-      if (!std::isfinite(x)) return;
+      if (!isfinite(x)) return;
   source.uv = uv;
 }
 
@@ -63,7 +58,7 @@ MeshMaterials::MeshMaterials(const aiScene& scene, const MeshFiles& files, const
                              const MeshLimits& limits)
     : scene_(scene), files_(files), limits_(limits), wavefront_(ending == "obj") {
   // A picture may be needed twice, opaque and not.
-  std::set<std::pair<string, string>> names;
+  set<pair<string, string>> names;
   for (unsigned i = 0; i < scene.mNumMaterials; ++i)
     names.insert({texture_name(*scene.mMaterials[i]), alpha_mode(*scene.mMaterials[i])});
   most_kept_ = max<uint64_t>(limits.texture_bytes / 4 / max<size_t>(names.size(), 1), 1);
@@ -100,7 +95,7 @@ PartSource MeshMaterials::of(const aiMesh& mesh) {
     if (alpha == "MASK") {
       part.cutoff = blend_cutoff;
       material.Get(AI_MATKEY_GLTF_ALPHACUTOFF, part.cutoff);
-      part.cutoff = std::isfinite(part.cutoff) ? max(part.cutoff, 0.0F) : 0;
+      part.cutoff = isfinite(part.cutoff) ? max(part.cutoff, 0.0F) : 0;
     }
   }
 
@@ -142,7 +137,7 @@ void MeshMaterials::add_texture(const aiMaterial& material, bool opaque, PartSou
 MeshTexture MeshMaterials::texture(const string& name) const {
   const aiTexture* const inside = scene_.GetEmbeddedTexture(name.c_str());
   const string shown = inside ? "in the mesh" : name;
-  if (inside && inside->mHeight > 0) throw std::runtime_error("its texture in the mesh is neither PNG nor JPEG");
+  if (inside && inside->mHeight > 0) throw runtime_error("its texture in the mesh is neither PNG nor JPEG");
   const string bytes = inside ? string(reinterpret_cast<const char*>(inside->pcData), inside->mWidth)
                               : files_.read("texture", name, limits_.file_bytes);
   try {
@@ -150,7 +145,7 @@ MeshTexture MeshMaterials::texture(const string& name) const {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("its texture {} {}", shown, error.what()));
+    throw runtime_error(fmt::format("its texture {} {}", shown, error.what()));
   }
 }
 

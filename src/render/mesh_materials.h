@@ -2,10 +2,6 @@
 // The materials of a mesh file as assimp reads them, in the child process only.
 #include <assimp/scene.h>
 
-#include <algorithm>
-#include <map>
-#include <utility>
-
 #include "render/mesh_data.h"
 #include "render/mesh_files.h"
 #include "std.h"
@@ -31,7 +27,7 @@ class MeshMaterials {
  public:
   MeshMaterials(const aiScene& scene, const MeshFiles& files, const string& ending, const MeshLimits& limits);
 
-  /// Of a part of the mesh. Throws std::runtime_error with the fault of a texture.
+  /// Of a part of the mesh. Throws runtime_error with the fault of a texture.
   PartSource of(const aiMesh& mesh);
   vector<MeshTexture> take_textures() { return std::move(textures_); }
 
@@ -44,8 +40,8 @@ class MeshMaterials {
   const MeshFiles& files_;
   const MeshLimits& limits_;
   bool wavefront_;
-  uint64_t most_kept_;                                 // pixels of a texture
-  std::map<std::pair<string, bool>, uint32_t> known_;  // by name and whether it is opaque
+  uint64_t most_kept_;                       // pixels of a texture
+  map<pair<string, bool>, uint32_t> known_;  // by name and whether it is opaque
   vector<MeshTexture> textures_;
 };
 

@@ -2,10 +2,6 @@
 // corrupted the child.
 #include "render/mesh_reply.h"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-
 #include "std.h"
 
 namespace carom {
@@ -27,12 +23,12 @@ vector<Vec3> vectors(span<const float> values) {
 }
 
 [[noreturn]] void refuse() {
-  throw std::runtime_error("it is damaged");
+  throw runtime_error("it is damaged");
 }
 
 template <typename Item>
 void receive(const MeshReplySource& source, vector<Item>& items) {
-  if (!source.receive(items.data(), items.size() * sizeof(Item))) throw std::runtime_error(source.trouble());
+  if (!source.receive(items.data(), items.size() * sizeof(Item))) throw runtime_error(source.trouble());
 }
 
 bool is_share(float x) {
@@ -41,14 +37,14 @@ bool is_share(float x) {
 
 void check_part(const MeshPart& part, uint32_t textures) {
   const auto is_wrap = [](Wrap wrap) { return wrap <= Wrap::mirror; };
-  if (part.texture > textures || part.sharp > 1 || part.colored > 1 || !std::isfinite(part.cutoff) || part.cutoff < 0 ||
-      !std::ranges::all_of(part.wrap, is_wrap) || !std::ranges::all_of(part.factor, is_share))
+  if (part.texture > textures || part.sharp > 1 || part.colored > 1 || !isfinite(part.cutoff) || part.cutoff < 0 ||
+      !all_of(part.wrap, is_wrap) || !all_of(part.factor, is_share))
     refuse();
 }
 
 MeshTexture receive_texture(const MeshReplySource& source, uint64_t& bytes_left) {
   array<uint32_t, 2> sides{};
-  if (!source.receive(sides.data(), sizeof sides)) throw std::runtime_error(source.trouble());
+  if (!source.receive(sides.data(), sizeof sides)) throw runtime_error(source.trouble());
   for (const uint32_t side : sides)
     if (side == 0 || side > longest_texture_side) refuse();
   const uint64_t bytes = uint64_t{4} * sides[0] * sides[1];
@@ -74,12 +70,12 @@ MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head
   paint.uv.resize(head.vertices);
   receive(source, paint.uv);
   for (const auto& uv : paint.uv)
-    if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) refuse();
+    if (!isfinite(uv[0]) || !isfinite(uv[1])) refuse();
 
   paint.tint.resize(head.vertices);
   receive(source, paint.tint);
   for (const auto& tint : paint.tint)
-    if (!std::ranges::all_of(tint, is_share)) refuse();
+    if (!all_of(tint, is_share)) refuse();
 
   uint64_t bytes_left = limits.texture_bytes;
   for (uint32_t i = 0; i < head.textures; ++i) paint.textures.push_back(receive_texture(source, bytes_left));
@@ -90,12 +86,12 @@ MeshPaint receive_paint(const MeshReplySource& source, const MeshReplyHead& head
 
 Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   MeshReplyHead head;
-  if (!source.receive(&head, sizeof head)) throw std::runtime_error(source.trouble());
+  if (!source.receive(&head, sizeof head)) throw runtime_error(source.trouble());
 
   if (head.text > 0) {
     string text(min(head.text, longest_mesh_trouble), ' ');
     source.receive(text.data(), text.size());
-    throw std::runtime_error(printable(text));
+    throw runtime_error(printable(text));
   }
 
   if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0) refuse();
@@ -108,11 +104,10 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   receive(source, normals);
   receive(source, mesh.triangles);
 
-  const auto finite = [](float x) { return std::isfinite(x); };
-  if (!std::ranges::all_of(positions, finite) || !std::ranges::all_of(normals, finite))
-    throw std::runtime_error("a vertex is not finite");
+  const auto finite = [](float x) { return isfinite(x); };
+  if (!all_of(positions, finite) || !all_of(normals, finite)) throw runtime_error("a vertex is not finite");
   for (uint32_t i : mesh.triangles)
-    if (i >= head.vertices) throw std::runtime_error("a triangle refers to a missing vertex");
+    if (i >= head.vertices) throw runtime_error("a triangle refers to a missing vertex");
 
   mesh.vertices = vectors(positions);
   mesh.normals = vectors(normals);

@@ -24,7 +24,7 @@ struct MeshReplySource {
   function<string()> trouble;                        // the reason
 };
 
-/// Throws std::runtime_error. Its text states the fault of the mesh, without the path.
+/// Throws runtime_error. Its text states the fault of the mesh, without the path.
 Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits);
 
 }  // namespace carom

@@ -2,9 +2,6 @@
 // is the mean of its points. Points of meshes in colours of their own have the colour besides, in a second picture.
 #include "render/meshes.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "raster/silhouettes.h"
 #include "render/render_error.h"
 #include "std.h"
@@ -290,7 +287,7 @@ void Meshes::draw_tile(const Rect& tile, const vector<PlacedMesh>& meshes, const
   }
 
   // Meshes of one file are together. Those in colours of their own hide the farther ones before these are coloured.
-  std::ranges::stable_sort(inside, [&](size_t a, size_t b) {
+  ranges::stable_sort(inside, [&](size_t a, size_t b) {
     const PlacedMesh &m = meshes[a], &n = meshes[b];
     return m.file != n.file ? m.file < n.file : shapes_.colors(m.file) && m.middle.z() < n.middle.z();
   });
@@ -408,7 +405,7 @@ void Meshes::resolve(const Rect& tile, const raster::Shot& shot) {
 
       // The mean normal: its light is the mean of matt faces' light. Across an edge it is short, and nothing glints
       // there that would not on either face.
-      const float length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+      const float length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
       const float even = length / float(covered);
       for (size_t i = 0; i < 3; ++i) {
         pixels_.normal[pixel][i] = even > 0.97F ? normal[i] / length : normal[i] / float(covered);
@@ -426,7 +423,7 @@ void Meshes::draw(const vector<PlacedMesh>& meshes, const Eye& eye, raster::Shot
     for (raster::MeshShadow& mesh : shot.meshes) mesh.outline = -1;
   }
 
-  std::ranges::fill(pixels_.depth, 0.0F);
+  ranges::fill(pixels_.depth, 0.0F);
   shot.mesh_pixels = &pixels_;
 
   vector<const gl::Program*> programs{&program_};

@@ -2,9 +2,6 @@
 // the motion's end shows which of these return.
 #include "render/motion_view.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "physics/body_now.h"
 #include "std.h"
 
@@ -55,18 +52,18 @@ void MotionView::add(const State& state) {
     start_ = time_ = state.time;
   }
 
-  const double since = state.time - std::exchange(time_, state.time);
+  const double since = state.time - exchange(time_, state.time);
   for (Entity body = 0; body < state.position.size(); ++body) {
     Departure& departure = departures_[body];
     const Vec3& position = state.position[body];
 
     // A body departs while it moves away from where all were at the start.
     const double distance2 = (position - middle_).squaredNorm();
-    const double before = std::exchange(departure.distance2, distance2);
+    const double before = exchange(departure.distance2, distance2);
     const bool part = is_gone(state, body);
     const bool departs = !part && before >= 0 && distance2 > before;
 
-    if (!departs && !departure.content.empty()) core_.add(std::exchange(departure.content, {}));
+    if (!departs && !departure.content.empty()) core_.add(exchange(departure.content, {}));
     if (part) continue;
 
     const Volume volume = volume_now(scene_.world, state, body);
@@ -89,7 +86,7 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
   const Vec3 middle = core_.bodies.middle();
   const auto depth = [&](const Content& content) { return frustum.depth(content.reach[direction], middle); };
 
-  vector<std::pair<double, size_t>> leaving;  // by depth
+  vector<pair<double, size_t>> leaving;  // by depth
   for (size_t body = 0; body < departures_.size(); ++body) {
     if (departures_[body].content.empty()) continue;
     Content with = core_;
@@ -97,7 +94,7 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
     leaving.emplace_back(depth(with), body);
   }
   if (leaving.empty()) return core_;
-  std::ranges::sort(leaving);
+  ranges::sort(leaving);
 
   const double largest_dot = dot * frustum.height(1) / (2 * median(scene_.world.radius));  // per m of depth
   Content content = core_;

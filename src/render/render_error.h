@@ -1,11 +1,12 @@
 #pragma once
-#include <stdexcept>
+
+#include "std.h"
 
 namespace carom {
 
 /// Drawing cannot continue. The text is for the user.
-struct RenderError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct RenderError : runtime_error {
+  using runtime_error::runtime_error;
 };
 
 }  // namespace carom

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "physics/surface_motion.h"
 #include "raster/threads.h"
 #include "render/last_picture.h"

@@ -1,10 +1,6 @@
 // Intersects each two planes in a line, and cuts the line at all other planes.
 #include "render/room_edges.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/world.h"
 #include "render/surfaces.h"
 #include "std.h"
@@ -29,7 +25,7 @@ bool edge_of(const vector<Plane>& planes, size_t i, size_t j, Vec3& from, Vec3& 
   const Vec3 start = a.point + b.normal.dot(b.point - a.point) / within.squaredNorm() * within;
 
   // Each other plane cuts off one end.
-  double low = -numeric_limits<double>::infinity(), high = -low;
+  double low = -infinity, high = -low;
   for (size_t k = 0; k < planes.size(); ++k) {
     if (k == i || k == j) continue;
     const double slope = planes[k].normal.dot(direction), height = planes[k].normal.dot(start - planes[k].point);
@@ -43,7 +39,7 @@ bool edge_of(const vector<Plane>& planes, size_t i, size_t j, Vec3& from, Vec3& 
     }
   }
 
-  if (!std::isfinite(low) || !std::isfinite(high) || low >= high) return false;
+  if (!isfinite(low) || !isfinite(high) || low >= high) return false;
   from = start + low * direction, to = start + high * direction;
   return true;
 }

@@ -2,11 +2,6 @@
 // Vertices are stored relative to the mesh's centre, because floats would lose digits far from the origin.
 #include "render/shapes.h"
 
-#include <algorithm>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-
 #include "render/mesh.h"
 #include "render/render_error.h"
 #include "std.h"
@@ -17,7 +12,7 @@ Shapes::Shapes(const vector<DrawnFile>& files) : instances_(gl::make_buffer()) {
     Mesh mesh;
     try {
       mesh = file.own_colors ? read_painted_mesh(file.path) : read_mesh(file.path);
-    } catch (const std::runtime_error& error) {
+    } catch (const runtime_error& error) {
       throw RenderError(error.what());
     }
     upload(mesh);
@@ -79,7 +74,7 @@ void Shapes::upload(const Mesh& mesh) {
 double Shapes::radius(size_t file, const Vec3& center) const {
   double square = 0;
   for (const Vec3& p : points_[file]) square = max(square, (p - center).squaredNorm());
-  return std::sqrt(square);
+  return sqrt(square);
 }
 
 void Shapes::fill_instances(span<const float> rows) const {

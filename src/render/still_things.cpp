@@ -2,11 +2,6 @@
 // Round shapes are subdivided by midpoints and square roots alone, so that corners are the same on every machine.
 #include "render/still_things.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
-
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "render/render_error.h"
@@ -138,7 +133,7 @@ class Collector {
   const bool painted_;
   Vec3 center_;      // m, centre of the cube
   double half_ = 0;  // m, half of its edge
-  std::map<Shape, Mesh> shapes_;
+  map<Shape, Mesh> shapes_;
   vector<StillThing> things_;
 };
 
@@ -154,7 +149,7 @@ Mesh unit_box() {
     const int axis = face / 2;
     const Vec3 normal = (face % 2 ? 1 : -1) * Vec3::Unit(axis), u = Vec3::Unit((axis + 1) % 3), v = normal.cross(u);
     const auto first = uint32_t(mesh.vertices.size());
-    for (const auto& [a, b] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
+    for (const auto& [a, b] : {pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}}) {
       mesh.vertices.push_back(normal + a * u + b * v);
       mesh.normals.push_back(normal);
     }
@@ -171,7 +166,7 @@ Mesh round_ball() {
   mesh.triangles = {0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5};
 
   for (int i = 0; i < times; ++i) {
-    std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
+    map<pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
       const auto [found, is_new] = middles.try_emplace(std::minmax(a, b), mesh.vertices.size());
       if (is_new) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]).normalized());
@@ -238,7 +233,7 @@ Mesh drawn_mesh(const MeshUse& use) {
   try {
     return placed(use.own_colors ? read_painted_mesh(use.file) : read_mesh(use.file), Vec3::Constant(use.scale),
                   -use.scale * use.center);
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     throw RenderError(error.what());
   }
 }

@@ -4,12 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <stdexcept>
 #include <system_error>
 
 #include "std.h"
@@ -45,7 +42,7 @@ class StlText {
 
  private:
   [[noreturn]] void fail(const string& why) const {
-    throw std::runtime_error(fmt::format("line {}: {}. Remedy: export it again", line_, why));
+    throw runtime_error(fmt::format("line {}: {}. Remedy: export it again", line_, why));
   }
 
   static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
@@ -93,7 +90,7 @@ class StlText {
     const bool is_number = error != std::errc::invalid_argument && end == word.data() + word.size();
     if (!is_number) fail(fmt::format("{} is not a number", shown(word)));
     if (error == std::errc::result_out_of_range) x = float(std::strtod(word.c_str() + sign, nullptr));
-    if (!std::isfinite(x)) fail(fmt::format("{} is not a finite number", shown(word)));
+    if (!isfinite(x)) fail(fmt::format("{} is not a finite number", shown(word)));
     return x;
   }
 
@@ -107,7 +104,7 @@ vector<array<float, 3>> binary_corners(string_view bytes) {
   if (bytes.size() >= header_bytes) std::memcpy(&count, bytes.data() + header_bytes - 4, 4);
   const size_t whole = bytes.size() < header_bytes ? 0 : (bytes.size() - header_bytes) / triangle_bytes;
   if (bytes.size() < header_bytes || whole < count)
-    throw std::runtime_error(
+    throw runtime_error(
         fmt::format("it holds {} of the {} triangles that its header counts, or it is no STL file. Remedy: export it "
                     "again",
                     whole, count));
@@ -119,8 +116,7 @@ vector<array<float, 3>> binary_corners(string_view bytes) {
 
     for (size_t k = 3 * t; k < 3 * t + 3; ++k)
       for (const float x : corners[k])
-        if (!std::isfinite(x))
-          throw std::runtime_error(fmt::format("triangle {} has a corner that is not finite", t + 1));
+        if (!isfinite(x)) throw runtime_error(fmt::format("triangle {} has a corner that is not finite", t + 1));
   }
   return corners;
 }

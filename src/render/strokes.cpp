@@ -1,9 +1,6 @@
 // Projects strokes. A stroke that is thinner than its least width is drawn that wide.
 #include "render/strokes.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "render/lighting.h"
 #include "std.h"
 
@@ -62,9 +59,7 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
     line.joined = joined;
 
     const double wide = max(line.radius0, line.radius1) + 1;
-    const auto tile = [](double x, int most) {
-      return int(clamp(std::floor(x / raster::tile_side), -1.0, 1.0 * most));
-    };
+    const auto tile = [](double x, int most) { return int(clamp(floor(x / raster::tile_side), -1.0, 1.0 * most)); };
     const int left = max(tile(min(line.x0, line.x1) - wide, columns), 0);
     const int right = min(tile(max(line.x0, line.x1) + wide, columns), columns - 1);
     const int top = max(tile(min(line.y0, line.y1) - wide, rows), 0);
@@ -75,7 +70,7 @@ void Lines::add(const vector<Stroke>& strokes, const Eye& eye) {
     last = &stroke;
 
     // A long slanting line passes few of the tiles in the box around it.
-    const double dx = line.x1 - line.x0, dy = line.y1 - line.y0, length = std::hypot(dx, dy);
+    const double dx = line.x1 - line.x0, dy = line.y1 - line.y0, length = hypot(dx, dy);
     for (int y = top; y <= bottom; ++y)
       for (int x = left; x <= right; ++x) {
         const double half = 0.5 * raster::tile_side;

@@ -2,9 +2,6 @@
 // floats.
 #include "render/surfaces.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/body_now.h"
 #include "render/lighting.h"
 #include "scene/scene.h"
@@ -24,7 +21,7 @@ void pattern_axes(const Vec3& normal, Vec3& right, Vec3& up) {
 
 /// The largest of 1, 2, 5 times a power of ten that is not above x.
 double round_below(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)));
+  const double power = pow(10, floor(std::log10(x)));
   for (const double digit : {5.0, 2.0})
     if (digit * power <= x * (1 + 1e-12)) return digit * power;
   return power;

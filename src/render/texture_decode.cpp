@@ -5,10 +5,8 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
-#include <stdexcept>
 
 // After <cstdio>, which it needs.
 #include <jpeglib.h>
@@ -22,14 +20,14 @@ namespace carom {
 namespace {
 
 [[noreturn]] void refuse_damaged() {
-  throw std::runtime_error("is damaged. Remedy: save it again, or give the body a `color`");
+  throw runtime_error("is damaged. Remedy: save it again, or give the body a `color`");
 }
 
 MeshTexture blank(uint64_t width, uint64_t height, uint64_t most_pixels) {
-  if (width == 0 || height == 0) throw std::runtime_error("has no pixels");
+  if (width == 0 || height == 0) throw runtime_error("has no pixels");
   if (width > most_pixels / height)
-    throw std::runtime_error(fmt::format("has {} x {} pixels; at most {} in all are read. Remedy: scale it down", width,
-                                         height, most_pixels));
+    throw runtime_error(fmt::format("has {} x {} pixels; at most {} in all are read. Remedy: scale it down", width,
+                                    height, most_pixels));
   return {uint32_t(width), uint32_t(height), vector<uint8_t>(4 * width * height)};
 }
 
@@ -89,7 +87,7 @@ MeshTexture jpeg_texture(string_view bytes, uint64_t most_pixels) {
   JpegReader jpeg;
   if (!read_jpeg_head(jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size())) refuse_damaged();
   if (jpeg.reader.jpeg_color_space == JCS_CMYK || jpeg.reader.jpeg_color_space == JCS_YCCK)
-    throw std::runtime_error("has the colours of a print (CMYK). Remedy: convert it to RGB");
+    throw runtime_error("has the colours of a print (CMYK). Remedy: convert it to RGB");
   MeshTexture texture = blank(jpeg.reader.image_width, jpeg.reader.image_height, most_pixels);
   if (!read_jpeg_rows(jpeg, texture.rgba.data())) refuse_damaged();
   return texture;
@@ -106,7 +104,7 @@ MeshTexture decoded_texture(string_view bytes, uint64_t most_pixels, uint64_t mo
   } else if (bytes.starts_with("\xff\xd8\xff"sv)) {
     texture = jpeg_texture(bytes, most_pixels);
   } else {
-    throw std::runtime_error("is neither PNG nor JPEG. Remedy: convert it, or give the body a `color`");
+    throw runtime_error("is neither PNG nor JPEG. Remedy: convert it, or give the body a `color`");
   }
 
   // Halved until it is small enough.

@@ -6,7 +6,7 @@
 
 namespace carom {
 
-/// `most_pixels`: of the file; `most_kept`: of the result, which is scaled down to so many. Throws std::runtime_error
+/// `most_pixels`: of the file; `most_kept`: of the result, which is scaled down to so many. Throws runtime_error
 /// with the fault. Its text follows the name of the file: "is neither PNG nor JPEG".
 MeshTexture decoded_texture(string_view bytes, uint64_t most_pixels, uint64_t most_kept);
 

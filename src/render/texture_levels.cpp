@@ -3,9 +3,6 @@
 // everywhere.
 #include "render/texture_levels.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/srgb.h"
 #include "std.h"
 
@@ -23,7 +20,7 @@ const array<float, 256>& lights() {
 }
 
 uint8_t byte_of(float light) {
-  const float root = std::sqrt(clamp(light, 0.0F, 1.0F));
+  const float root = sqrt(clamp(light, 0.0F, 1.0F));
   return srgb_bytes().of_root[size_t(std::lround(root * SrgbBytes::steps))];
 }
 
@@ -65,7 +62,7 @@ MeshTexture reduced(const MeshTexture& texture, uint32_t width, uint32_t height)
 
   for (size_t k = 0; k < down.size(); ++k) {
     const uint8_t* from = texture.rgba.data() + size_t{4} * texture.width * down[k].from;
-    std::ranges::fill(row, Pixel{});
+    ranges::fill(row, Pixel{});
 
     for (const Share& share : across) {
       const Pixel pixel = loaded(from + size_t{4} * share.from);
@@ -73,7 +70,7 @@ MeshTexture reduced(const MeshTexture& texture, uint32_t width, uint32_t height)
       for (size_t c = 0; c < 4; ++c) row[share.to][c] += share.weight * pixel[c] * (c < 3 ? pixel[3] : 1);
     }
 
-    if (k == 0 || down[k].to != down[k - 1].to) std::ranges::fill(sum, Pixel{});
+    if (k == 0 || down[k].to != down[k - 1].to) ranges::fill(sum, Pixel{});
     for (uint32_t x = 0; x < width; ++x)
       for (size_t c = 0; c < 4; ++c) sum[x][c] += down[k].weight * row[x][c];
 

@@ -2,9 +2,6 @@
 // shadows into it.
 #include "render/things.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/body_now.h"
 #include "render/lighting.h"
 #include "render/surfaces.h"
@@ -15,9 +12,29 @@ namespace carom {
 namespace {
 
 raster::SolidKind kind_of(Shape shape) {
-  return shape == Shape::box        ? raster::SolidKind::box
-         : shape == Shape::cylinder ? raster::SolidKind::cylinder
-                                    : raster::SolidKind::ball;
+  switch (shape) {
+    case Shape::sphere:
+      break;
+    case Shape::cylinder:
+      return raster::SolidKind::cylinder;
+    case Shape::box:
+      return raster::SolidKind::box;
+  }
+  return raster::SolidKind::ball;
+}
+
+/// Whether the point d from its centre is in the volume or on its surface.
+bool reaches(const Volume& volume, const Vec3& d) {
+  const bool in_box = (d.cwiseAbs().array() <= volume.half.array()).all();
+  switch (volume.shape) {
+    case Shape::sphere:
+      return d.squaredNorm() <= volume.half.x() * volume.half.x();
+    case Shape::cylinder:
+      return in_box && hypot(d.x(), d.z()) <= volume.half.x();
+    case Shape::box:
+      break;
+  }
+  return in_box;
 }
 
 }  // namespace
@@ -41,7 +58,7 @@ Look Things::look_of(const Color& color, const optional<MeshUse>& mesh) {
   Look look{linear(color), mesh, 0, {}};
   if (mesh) {
     const DrawnFile file{mesh->file, mesh->own_colors};
-    look.file = size_t(std::ranges::find(files_, file) - files_.begin());
+    look.file = size_t(ranges::find(files_, file) - files_.begin());
     if (look.file == files_.size()) files_.push_back(file);
   }
   return look;
@@ -73,12 +90,10 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
 
   // A thing around the eye would show only its own inside.
   const double distance2 = center.squaredNorm();
-  const Vec3 off = (eye.camera.eye - position).cwiseAbs();
-  const bool inside =
-      solid.kind == raster::SolidKind::ball ? distance2 <= radius * radius : (off.array() <= volume.half.array()).all();
+  const bool inside = reaches(volume, eye.camera.eye - position);
   solid.shadow_only = inside || !eye.may_see(center, around);
 
-  // A thing smaller than a pixel is drawn as a ball, which is the fainter the smaller it is.
+  // A thing smaller than a pixel is drawn as a ball of the same volume, which is the fainter the smaller it is.
   if (solid.kind != raster::SolidKind::ball && around * around < 0.25 * eye.pixel * eye.pixel * distance2) {
     solid.kind = raster::SolidKind::ball;
     solid.radius = float(std::cbrt(0.2387 * volume.size()));
@@ -109,7 +124,7 @@ void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
     raster::Solid solid;
     solid.kind = raster::SolidKind::wall;
     solid.center = floats(eye.point(wall.center));
-    solid.radius = float(std::hypot(wall.half_width, wall.half_height));
+    solid.radius = float(hypot(wall.half_width, wall.half_height));
     solid.half = {float(wall.half_width), float(wall.half_height), 0};
 
     solid.part = uint32_t(shot.walls.size());
@@ -129,18 +144,11 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   const World& world = scene_.world;
   for (uint32_t i = 0; i < world.body_count(); ++i) {
     if (is_gone(state, i)) continue;
-    Volume volume = world.volume_of(i);
-    double radius = world.radius[i];
-    bool mesh = looks_[i].mesh.has_value();
+    const Volume volume = volume_now(world, state, i);
+    const bool joint = volume != world.volume_of(i);
 
-    if (!state.volume.empty() && state.volume[i] != volume) {
-      // This is a joint body.
-      volume = state.volume[i];
-      radius = volume.reach();
-      mesh = false;
-    }
-
-    add(state.position[i], volume, radius, looks_[i], mesh, eye, shot);
+    add(state.position[i], volume, joint ? volume.reach() : world.radius[i], looks_[i],
+        looks_[i].mesh.has_value() && !joint, eye, shot);
     if (!drawing.body_colors.empty()) shot.solids.back().color = linear(drawing.body_colors[i]);
     take_mean(looks_[i], shot);
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];

@@ -7,10 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
-#include <cmath>
-#include <utility>
 
 #include "physics/force.h"
 #include "physics/places.h"
@@ -93,7 +90,7 @@ class Runs {
 
 /// The number of instants before differences exceed a tolerance (m).
 size_t within(const vector<double>& differences, double tolerance) {
-  const auto beyond = std::ranges::find_if(differences, [&](double d) { return !(d <= tolerance); });
+  const auto beyond = ranges::find_if(differences, [&](double d) { return !(d <= tolerance); });
   return size_t(beyond - differences.begin());
 }
 
@@ -116,7 +113,7 @@ struct Accuracy {
   /// In m: the greatest difference of its positions from those of a finer run, within the time that both are reliable.
   double difference = 0;
   // In s: the time after which no steps give positions within the tolerance. Infinity: never.
-  double right_until = numeric_limits<double>::infinity();
+  double right_until = infinity;
   /// In m: the difference of the finest runs after that.
   double beyond = 0;
   /// Whether the tolerance is met until then.
@@ -143,7 +140,7 @@ class Settling {
   /// Records until when the tolerance is met, from the differences of two runs of a kind.
   void note(const vector<double>& differences) {
     const size_t good = within(differences, tolerance_);
-    accuracy_.right_until = numeric_limits<double>::infinity();
+    accuracy_.right_until = infinity;
     accuracy_.difference = good > 0 ? differences[good - 1] : 0;
     accuracy_.beyond = differences.back();
     if (good < differences.size()) accuracy_.right_until = good > 0 ? runs_.instants()[good - 1] : 0;
@@ -159,7 +156,7 @@ class Settling {
 
   /// Begins with step errors of `coarsest` at most. Returns the finer of the last two runs.
   TrackedRun settle_adaptive(double tolerance, double coarsest) {
-    double least = numeric_limits<double>::infinity();  // m
+    double least = infinity;  // m
     for (const double radius : scene_.world.radius) least = min(least, radius);
     StepChoice steps{way_.step, clamp(first_share * tolerance / least, finest_error, coarsest)};
     for (;;) {
@@ -189,7 +186,7 @@ class Settling {
     Simulate finer_way = way_;
     finer_way.integrator = Integrator::dop853;
     finer_way.step.reset();
-    const Simulate own = std::exchange(way_, finer_way);
+    const Simulate own = exchange(way_, finer_way);
     const TrackedRun reference = settle_adaptive(reference_share * tolerance_, coarsest_error);
     way_ = own;
 
@@ -197,7 +194,7 @@ class Settling {
                              ? within(runs_.instants(), accuracy_.right_until)
                              : runs_.instants().size();
     accuracy_.reached = false;
-    accuracy_.difference = numeric_limits<double>::infinity();
+    accuracy_.difference = infinity;
     accuracy_.steps = {};
 
     string trouble;
@@ -219,7 +216,7 @@ class Settling {
       const double difference = known > 0 ? off[known - 1] : 0;
       const double steps = way_.duration / step * bodies;
       const bool out_of_reach = steps > few_steps && steps_to_go(coarse, difference) * steps > most_steps;
-      coarse = std::exchange(before, difference);
+      coarse = exchange(before, difference);
       vain = difference <= gain * accuracy_.difference ? 0 : vain + 1;
       if (!(difference < accuracy_.difference)) continue;
       accuracy_.difference = difference;
@@ -240,7 +237,7 @@ class Settling {
   /// `difference` (m) is that of the present steps, `coarse` (m) that of a quarter of them.
   double steps_to_go(double coarse, double difference) const {
     if (!(difference > tolerance_) || !(coarse > difference)) return 1;
-    return std::exp2(2 * std::log(difference / tolerance_) / std::log(coarse / difference));
+    return std::exp2(2 * log(difference / tolerance_) / log(coarse / difference));
   }
 
   const Scene& scene_;
@@ -257,7 +254,7 @@ size_t enough(const vector<double>& apart) {
 
 /// Measures growth from the distances of two runs (m) at instants (s). The first `small` of them are small.
 void measure_growth(const vector<double>& instants, const vector<double>& apart, size_t small, Growth& growth) {
-  const auto first = std::ranges::find_if(apart, [](double d) { return d > 0; });
+  const auto first = ranges::find_if(apart, [](double d) { return d > 0; });
   if (first == apart.end()) return;
   growth.factor = apart.back() / *first;
   if (small < enough(apart)) return;
@@ -266,10 +263,10 @@ void measure_growth(const vector<double>& instants, const vector<double>& apart,
   // The logarithm of the growth beyond the third power of time, from one instant to another.
   const auto excess = [&](size_t from, size_t to) {
     if (!(apart[from] > 0)) return 0.0;
-    return std::log(apart[to] / apart[from]) - 3 * std::log(instants[to] / instants[from]);
+    return log(apart[to] / apart[from]) - 3 * log(instants[to] / instants[from]);
   };
   growth.chaotic = excess(half, between) > 0 && excess(between, end) > 0;
-  if (growth.chaotic) growth.lyapunov_time = (instants[end] - instants[half]) / std::log(apart[end] / apart[half]);
+  if (growth.chaotic) growth.lyapunov_time = (instants[end] - instants[half]) / log(apart[end] / apart[half]);
 }
 
 /// A number in [-1, -1/2] or [1/2, 1], from a fraction in [0, 1].
@@ -280,7 +277,7 @@ double away_from_zero(double fraction) {
 /// The k-th such number, from irrational steps around a circle.
 double irregular(double k) {
   const double x = k * golden;
-  return away_from_zero(x - std::floor(x));
+  return away_from_zero(x - floor(x));
 }
 
 /// A place (m) with other last digits. Equal coordinates stay equal, and mirrored ones mirrored.
@@ -364,7 +361,7 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const function
   Assessment assessment;
   Simulate way = scene.simulate;
   way.engine = engine.engine;
-  const double least = *std::ranges::min_element(scene.world.radius);
+  const double least = *ranges::min_element(scene.world.radius);
   assessment.tolerance = way.tolerance.value_or(default_tolerance * least);
 
   const Runs runs(scene, stop_check);
@@ -399,7 +396,7 @@ Assessment assess(const Scene& scene, const EngineChoice& engine, const function
 Growth growth_of(const Scene& scene, const Simulate& way, const StepChoice& steps, const function<void()>& stop_check) {
   Growth growth;
   if (way.duration == 0 || scene.world.body_count() == 0) return growth;
-  const double large = saturated * *std::ranges::max_element(scene.world.radius);
+  const double large = saturated * *ranges::max_element(scene.world.radius);
   // Measure only while the perturbation is small, because it cannot grow beyond the size of bodies.
   // That phase may end long before the run does. The runs are then repeated up to the end of that phase.
   for (double end = way.duration;;) {

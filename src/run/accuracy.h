@@ -1,7 +1,6 @@
 #pragma once
 // The accuracy of a scene's run: the steps that meet its tolerance, until when they do,
 // and whether the motion is chaotic.
-#include <limits>
 
 #include "physics/state.h"
 #include "physics/world.h"
@@ -37,7 +36,7 @@ struct Assessment {
   /// In m: the scene's, or a hundredth of its smallest radius.
   double tolerance = 0;
   /// In s: the time until which positions are within the tolerance. Infinity: to the end.
-  double right_until = numeric_limits<double>::infinity();
+  double right_until = infinity;
   /// In m: the effect of a perturbation by rounding on positions.
   double rounding = 0;
   /// In m: the difference of two accuracies of steps. None: all paths have closed forms. NaN: not known, because a

@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <new>
-#include <utility>
 
 #include "export/flights_file.h"
 #include "physics/archive.h"
@@ -98,7 +96,7 @@ void Checkpoints::forget() {
 
 /// Why the run is not kept, once.
 void Checkpoints::say(const string& why) {
-  if (!std::exchange(said_, true)) watch_.remark(fmt::format("cannot go on after an interrupt: {}", why));
+  if (!exchange(said_, true)) watch_.remark(fmt::format("cannot go on after an interrupt: {}", why));
 }
 
 }  // namespace carom

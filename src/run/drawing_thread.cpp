@@ -3,7 +3,6 @@
 #include <chrono>
 #include <csignal>
 #include <system_error>
-#include <utility>
 
 #include "std.h"
 

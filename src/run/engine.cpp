@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "files/processors.h"
 #include "physics/force.h"
 #include "physics/world.h"

@@ -1,6 +1,5 @@
 #pragma once
 // The choice of simulator and steps for a scene, with the reason. The table in engine.cpp makes each simulator.
-#include <limits>
 
 #include "scene/engines.h"
 #include "simulate/simulator.h"
@@ -29,10 +28,10 @@ struct StepChoice {
 struct Growth {
   bool chaotic = false;
   /// In s, the time of e-fold growth. Infinity: regular motion.
-  double lyapunov_time = numeric_limits<double>::infinity();
+  double lyapunov_time = infinity;
   double factor = 1;  // the greatest growth
   /// In s, the time at which it is as large as the bodies. Infinity: never.
-  double large_at = numeric_limits<double>::infinity();
+  double large_at = infinity;
 };
 
 struct EngineChoice {
@@ -45,7 +44,7 @@ struct EngineChoice {
   /// How the tolerance is missed. Empty: it is met.
   string shortfall{};
   /// In s, until when it is met. Infinity: to the end.
-  double right_until = numeric_limits<double>::infinity();
+  double right_until = infinity;
   /// If it is not met to the end.
   Growth growth{};
 

@@ -5,10 +5,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "export/flights_file.h"
 #include "files/hash.h"
@@ -87,7 +85,7 @@ FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFil
 }
 
 bool FormerRun::has(string_view name) const {
-  return std::ranges::any_of(manifest.files, [&](const FileRecord& file) { return file.name == name; });
+  return any_of(manifest.files, [&](const FileRecord& file) { return file.name == name; });
 }
 
 bool FormerRun::has_flights() const {

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -38,12 +36,12 @@ constexpr array<UnitText, 7> units = {{{"_kg_m_per_s", "kg m/s"},
                                        {"_s", "s"}}};
 
 const UnitText* unit_text(string_view column) {
-  const auto found = std::ranges::find_if(units, [&](const UnitText& u) { return column.ends_with(u.suffix); });
+  const auto found = ranges::find_if(units, [&](const UnitText& u) { return column.ends_with(u.suffix); });
   return found == units.end() ? nullptr : &*found;
 }
 
 /// The name of a call, "max", and what stands in its parentheses. An empty name: it is no call.
-std::pair<string_view, string_view> call_of(string_view text) {
+pair<string_view, string_view> call_of(string_view text) {
   const size_t open = text.find('(');
   if (open == string_view::npos || text.back() != ')' || text.front() == '=') return {};
   return {text.substr(0, open), text.substr(open + 1, text.size() - open - 2)};

@@ -7,7 +7,6 @@
 // - a region: `regions.pocket.entries`, `.inside`, `.first_s`, `.first`
 // - the number of bodies with a property at the end: `count(y_m < 0)`
 // - a value of the scene: `let.h`, or the name of a measure of its own
-#include <stdexcept>
 
 #include "files/summary.h"
 #include "files/summary_columns.h"
@@ -27,8 +26,8 @@ string_view name_of(Quantity quantity);
 string_view meaning_of(Quantity quantity);
 
 /// The name of a measure is invalid. The text describes the fault and suggests a near name, if there is one.
-struct MeasureError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct MeasureError : runtime_error {
+  using runtime_error::runtime_error;
   MeasureError(const string& text, TextSpan where) : runtime_error(text), span(where) {}
   TextSpan span{};  // in the text of the measure
 };

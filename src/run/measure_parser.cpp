@@ -2,10 +2,7 @@
 // `m1`, ... take their places. What is left is arithmetic (scene/formula.h).
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <limits>
 
 #include "run/measure.h"
 #include "run/measure_scope.h"
@@ -69,7 +66,7 @@ constexpr array<RelationText, 4> relations = {
     {{"<=", Relation::at_most}, {">=", Relation::at_least}, {"<", Relation::less}, {">", Relation::greater}}};
 
 const Call* find_call(string_view name) {
-  const auto found = std::ranges::find_if(calls, [&](const Call& call) { return call.name == name; });
+  const auto found = ranges::find_if(calls, [&](const Call& call) { return call.name == name; });
   return found == calls.end() ? nullptr : &*found;
 }
 
@@ -201,7 +198,7 @@ class FormulaParts {
       const bool arithmetic = (word == "max" || word == "min") &&
                               (arguments.size() > 1 || arguments.front().find('(') != string_view::npos);
       if (!arithmetic) return part(close + 1);
-    } else if (find_summary_column(word) != nullptr || std::ranges::find(own_, word) != own_.end()) {
+    } else if (find_summary_column(word) != nullptr || contains(own_, word)) {
       return part(end);
     }
 
@@ -290,7 +287,7 @@ void read_call(const Call& call, string_view inside, string_view whole, span<con
   if (call.form == MeasureForm::count) return read_count(trimmed(inside), whole, own, measure);
   const auto arguments = arguments_of(inside);
   const bool of_things = call.form == MeasureForm::first_hit || call.form == MeasureForm::hits;
-  const bool empty = std::ranges::any_of(arguments, [](string_view text) { return text.empty(); });
+  const bool empty = any_of(arguments, [](string_view text) { return text.empty(); });
   if (empty || arguments.size() > (of_things ? 2 : 1))
     throw MeasureError(fmt::format("{}: expected {}, such as {}", in_backticks(measure.name),
                                    of_things ? "one or two names" : "one quantity", call.example));
@@ -302,7 +299,7 @@ void read_call(const Call& call, string_view inside, string_view whole, span<con
 void read_region(string_view text, Measure& measure) {
   const size_t last = text.rfind('.');
   const string_view word = text.substr(last + 1);
-  const auto found = std::ranges::find_if(of_regions, [&](const auto& of) { return of.name == word; });
+  const auto found = ranges::find_if(of_regions, [&](const auto& of) { return of.name == word; });
   constexpr string_view begin = "regions.";
   if (found == of_regions.end() || last < begin.size()) {
     vector<string_view> names;
@@ -331,7 +328,7 @@ void read_region(string_view text, Measure& measure) {
 
 double formula_value(const Measure& measure, span<const double> parts) {
   constexpr double undefined = numeric_limits<double>::quiet_NaN();
-  if (!std::ranges::all_of(parts, [](double value) { return std::isfinite(value); })) return undefined;
+  if (!all_of(parts, [](double value) { return isfinite(value); })) return undefined;
   try {
     return Formula(measure.formula, names_of_parts(measure)).value(parts);
   } catch (const FormulaError&) {
@@ -381,7 +378,7 @@ Measure parse_measure(string_view text, span<const string> own) {
     return measure;
   }
 
-  if (std::ranges::find(own, name) != own.end()) {
+  if (contains(own, name)) {
     measure.form = MeasureForm::own;
     measure.things = {string(name)};
     return measure;

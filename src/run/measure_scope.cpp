@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 
 #include "scene/formula.h"
@@ -17,7 +16,7 @@ namespace {
 
 const BodyRange* find_range(const Scene& scene, string_view name) {
   const auto& bodies = scene.roster.bodies;
-  const auto found = std::ranges::find_if(bodies, [&](const BodyRange& range) { return range.name == name; });
+  const auto found = ranges::find_if(bodies, [&](const BodyRange& range) { return range.name == name; });
   return found == bodies.end() ? nullptr : &*found;
 }
 
@@ -25,7 +24,7 @@ const BodyRange* find_range(const Scene& scene, string_view name) {
 template <typename Fits>
 bool is_empty(const Scene& scene, string_view name, const Fits& fits) {
   const auto& empty = scene.roster.empty;
-  return std::ranges::any_of(empty, [&](const EmptyFamily& e) { return e.name == name && fits(e.of); });
+  return any_of(empty, [&](const EmptyFamily& e) { return e.name == name && fits(e.of); });
 }
 
 /// The member "17" of a group. Throws MeasureError.
@@ -34,8 +33,7 @@ EntityRange member_of(const BodyRange& range, string_view number, const Measure&
   const auto [stop, error] = std::from_chars(number.data(), number.data() + number.size(), member);
   if (error != std::errc() || stop != number.data() + number.size() || member >= range.count)
     throw MeasureError(fmt::format("{}: the members of {} are 0 to {}", in_backticks(measure.name),
-                                   in_backticks(range.name),
-                                   range.count == 0 ? "none" : std::to_string(range.count - 1)));
+                                   in_backticks(range.name), range.count == 0 ? "none" : to_string(range.count - 1)));
   return {range.first + member, 1};
 }
 
@@ -155,7 +153,7 @@ vector<string> own_names(const Scene& scene) {
 
 /// The scene's own measure of this name.
 Measure defined(const string& name, const Scene& scene) {
-  const auto found = std::ranges::find_if(scene.measures.own, [&](const OwnMeasure& own) { return own.name == name; });
+  const auto found = ranges::find_if(scene.measures.own, [&](const OwnMeasure& own) { return own.name == name; });
   Measure measure = parse_measure(found->text, own_names(scene));
   measure.name = name;
   return measure;
@@ -204,7 +202,7 @@ void check(const Measure& measure, const Scene& scene, vector<string>& above) {
       return;
 
     case MeasureForm::own: {
-      if (std::ranges::find(above, measure.things[0]) != above.end())
+      if (contains(above, measure.things[0]))
         throw MeasureError(
             fmt::format("{} is defined by itself: {}", in_backticks(measure.things[0]), joined(above, ", ")));
       above.push_back(measure.things[0]);

@@ -1,10 +1,6 @@
 // Each measure says what has to be recorded, before the run. Its value is made from that at the end.
 #include "run/measuring.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/body_now.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -15,7 +11,7 @@ namespace {
 constexpr double undefined = numeric_limits<double>::quiet_NaN();
 
 bool any_has(const vector<EntityRange>& ranges, Entity e) {
-  return std::ranges::any_of(ranges, [&](const EntityRange& range) { return range.has(e); });
+  return any_of(ranges, [&](const EntityRange& range) { return range.has(e); });
 }
 
 bool is_extreme(MeasureForm form) {
@@ -52,14 +48,14 @@ void Measuring::prepare(const Measure& measure) {
 
   if (is_extreme(measure.form)) {
     const WatchedQuantity watched = watched_by(measure, scene_);
-    if (std::ranges::find(watched_, watched) == watched_.end()) watched_.push_back(watched);
+    if (!contains(watched_, watched)) watched_.push_back(watched);
   }
   if (is_of_region(measure.form) &&
-      std::ranges::none_of(visits_, [&](const Visits& visits) { return visits.name == measure.things[0]; }))
+      none_of(visits_, [&](const Visits& visits) { return visits.name == measure.things[0]; }))
     visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
 
   if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
-  if (std::ranges::any_of(meetings_, [&](const Meeting& m) { return m.things == measure.things; })) return;
+  if (any_of(meetings_, [&](const Meeting& m) { return m.things == measure.things; })) return;
   Meeting meeting{measure.things, things_named(measure.things[0], measure, scene_), {}, 0, undefined};
   if (measure.things.size() > 1) meeting.b = things_named(measure.things[1], measure, scene_);
   meetings_.push_back(std::move(meeting));
@@ -126,7 +122,7 @@ double Measuring::counted(const Measure& measure, const MeasuredRun& run) const 
 }
 
 const Extremes& Measuring::extremes(const Measure& measure, const MeasuredRun& run) const {
-  const auto found = std::ranges::find(watched_, watched_by(measure, scene_));
+  const auto found = ranges::find(watched_, watched_by(measure, scene_));
   return run.extremes[size_t(found - watched_.begin())];
 }
 
@@ -138,16 +134,16 @@ double Measuring::inside(const Visits& visits, const State& end) const {
 }
 
 string Measuring::first_entrant(const Measure& measure) const {
-  const auto found = std::ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
+  const auto found = ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
   return found->entrant == no_entity ? string() : scene_.roster.name(found->entrant);
 }
 
 double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
   const auto visits = [&]() -> const Visits& {
-    return *std::ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
+    return *ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
   };
   const auto meeting = [&]() -> const Meeting& {
-    return *std::ranges::find_if(meetings_, [&](const Meeting& m) { return m.things == measure.things; });
+    return *ranges::find_if(meetings_, [&](const Meeting& m) { return m.things == measure.things; });
   };
 
   switch (measure.form) {
@@ -184,8 +180,8 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
     case MeasureForm::given:
       return scene_.measures.numbers.at(measure.things[0]);
     case MeasureForm::own:
-      return value(
-          *std::ranges::find_if(measures_, [&](const Measure& other) { return other.name == measure.things[0]; }), run);
+      return value(*ranges::find_if(measures_, [&](const Measure& other) { return other.name == measure.things[0]; }),
+                   run);
 
     default:
       return undefined;

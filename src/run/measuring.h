@@ -1,7 +1,5 @@
 #pragma once
 // The measures of a run, taken as it goes on.
-#include <map>
-#include <utility>
 
 #include "physics/collision.h"
 #include "physics/extremes.h"
@@ -53,7 +51,7 @@ class Measuring {
     double entries = 0;
     double first;  // s, of the first entry; NaN: none
     Entity entrant = no_entity;
-    std::map<std::pair<uint32_t, Entity>, bool> inside{};  // by region and body
+    map<pair<uint32_t, Entity>, bool> inside{};  // by region and body
 
     void keep(auto& archive) { archive(entries, first, entrant, inside); }
   };

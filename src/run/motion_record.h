@@ -1,6 +1,5 @@
 #pragma once
 // A motion simulated once, into a record that can be followed more than once.
-#include <utility>
 
 #include "files/part_file.h"
 #include "run/engine.h"

@@ -2,9 +2,6 @@
 // nothing in the simulator, so the slices do not change the motion by a bit.
 #include "run/motion_sink.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "run/stopwatch.h"
 #include "std.h"
 
@@ -54,7 +51,7 @@ class Carrying {
       const uint64_t collisions_before = simulator_.tally().collisions();
 
       // Multiples of the slice, so that round instants stay round.
-      double slices = std::floor(before / slice) + 1;
+      double slices = floor(before / slice) + 1;
       if (!(slices * slice > before)) ++slices;
       const double next = min(time, slices * slice);
       advance_to(next > before ? next : time);

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "scene/scene.h"
 #include "std.h"
 
@@ -75,7 +73,7 @@ const Image& PictureSeries::with_text(const Image& image, const State& state, co
   if (!inscription_) inscription_.emplace(scene_, stream_.size);
   if (!inscription_->any()) return image;
   CaptionValues values{scene_.title, fmt::format("{:.{}f}", state.time, stream_.decimals), run_,
-                       std::to_string(tally.collisions())};
+                       to_string(tally.collisions())};
   const auto text = [&](const CaptionValues& its) { return caption_text(scene_.overlay.caption, its); };
   repeated_ = repeated_ && text(values) == text(values_);
   values_ = std::move(values);

@@ -3,8 +3,6 @@
 
 #include <fcntl.h>
 
-#include <utility>
-
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/open_folder.h"

@@ -1,7 +1,5 @@
 #include "run/record_queue.h"
 
-#include <utility>
-
 #include "std.h"
 
 namespace carom {

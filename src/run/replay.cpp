@@ -2,11 +2,7 @@
 // Pieces are read as time advances, so that the record never has to fit into memory.
 #include "run/replay.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
-#include <utility>
 
 #include "export/flights_file.h"
 #include "physics/force.h"
@@ -54,7 +50,7 @@ void Replay::advance_to(double time) {
   collisions_.clear();
 
   // The state at the run's end stays. It is after whatever happens then.
-  const double end = end_ ? end_->time : numeric_limits<double>::infinity();
+  const double end = end_ ? end_->time : infinity;
   const bool reaches_end = time >= end;
   if (time > end && time_ < end) time = end;
 

@@ -2,9 +2,6 @@
 // of textures alone would not show a damaged one.
 #include "run/requirements.h"
 
-#include <set>
-#include <stdexcept>
-
 #include "export/film_file.h"
 #include "export/gnuplot.h"
 #include "overlay/inscription.h"
@@ -16,8 +13,8 @@ namespace carom {
 namespace {
 
 /// The mesh files that pictures show in colours of their own.
-std::set<string> painted_meshes(const Scene& scene) {
-  std::set<string> files;
+set<string> painted_meshes(const Scene& scene) {
+  set<string> files;
   const auto add = [&](const optional<MeshUse>& mesh) {
     if (mesh && mesh->own_colors) files.insert(mesh->file);
   };
@@ -30,7 +27,7 @@ std::set<string> painted_meshes(const Scene& scene) {
 string fault_of(const function<void()>& find) {
   try {
     find();
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     return error.what();
   }
   return {};
@@ -53,7 +50,7 @@ void Requirements::check(const SceneFile& file, const Scene& scene, const Output
   };
 
   if (outputs.pictures() || outputs.gltf) {
-    const std::set<string> painted = painted_meshes(scene);
+    const set<string> painted = painted_meshes(scene);
     for (const MeshFile& mesh : scene.meshes)
       if (painted.contains(mesh.file)) add(mesh.uncolored, fault_of_colors(mesh.file));
   }

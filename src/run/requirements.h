@@ -1,6 +1,5 @@
 #pragma once
 // What the outputs of a scene need of this machine besides carom: programs, a font, and the textures of meshes.
-#include <map>
 
 #include "scene/load.h"
 #include "std.h"
@@ -21,7 +20,7 @@ class Requirements {
  private:
   const string& fault_of_colors(const string& mesh);
 
-  std::map<string, string> faults_;  // by mesh; empty: its colours can be read
+  map<string, string> faults_;  // by mesh; empty: its colours can be read
 };
 
 }  // namespace carom

@@ -12,8 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "export/flights_file.h"
 #include "physics/archive.h"
 #include "run/accuracy.h"

@@ -1,7 +1,6 @@
 #pragma once
 // What a run is asked for besides its scene, how it reports, and what it returns.
 #include <exception>
-#include <utility>
 
 #include "files/publication.h"
 #include "files/summary.h"

@@ -3,9 +3,6 @@
 // The state is computed only if something is due.
 #include "run/stage.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "files/open_folder.h"
 #include "render/camera.h"
 #include "render/glb.h"
@@ -89,10 +86,9 @@ bool DrawingSink::needs_state(double time) {
   const auto is_due = [&](const PictureStream& stream) {
     return part().timeline().due(stream.timeline_stream).has_value();
   };
-  return (part().timeline().time() <= time &&
-          (part().needs_state() || std::ranges::any_of(exports_.pictures(), is_due))) ||
+  return (part().timeline().time() <= time && (part().needs_state() || any_of(exports_.pictures(), is_due))) ||
          history_.next_sample() <= time ||
-         std::ranges::any_of(series_, [&](const PictureSeries& series) { return series.next_instant() <= time; });
+         any_of(series_, [&](const PictureSeries& series) { return series.next_instant() <= time; });
 }
 
 vector<MovingCamera*> DrawingSink::cameras() {

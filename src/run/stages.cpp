@@ -4,9 +4,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "files/manifest.h"
 #include "physics/archive.h"
 #include "run/warnings.h"
@@ -129,11 +126,11 @@ Recording Stages::recording() const {
 }
 
 bool Stages::have_drawings() {
-  return std::ranges::any_of(standing(), [](const Standing& each) { return each.stage->exports.draws(); });
+  return any_of(standing(), [](const Standing& each) { return each.stage->exports.draws(); });
 }
 
 bool Stages::draw_after_motion() const {
-  return std::ranges::any_of(shows_, [](const Show& show) { return draws_after_motion(*show.scene); });
+  return any_of(shows_, [](const Show& show) { return draws_after_motion(*show.scene); });
 }
 
 void Stages::take_end(const optional<RunEnd>& end) {

@@ -5,9 +5,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "export/flights_file.h"
 #include "files/failed_run.h"
 #include "files/open_folder.h"
@@ -114,7 +111,7 @@ State state_in_table(const FormerRun& run, double at) {
       else if (!row[first].empty())
         throw ForeignRow();
     });
-    if (std::ranges::count(state.part_of, no_entity) == 0) state.part_of.clear();
+    if (ranges::count(state.part_of, no_entity) == 0) state.part_of.clear();
     return state;
   }
   refuse_time(at, near);

@@ -1,7 +1,5 @@
 #include "run/still.h"
 
-#include <algorithm>
-
 #include "export/picture_streams.h"
 #include "overlay/history.h"
 #include "run/picture_series.h"

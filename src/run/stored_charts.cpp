@@ -4,9 +4,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-
 #include "export/tables.h"
 #include "files/open_folder.h"
 #include "files/run_folder.h"
@@ -90,7 +87,7 @@ class ChartReader {
 
       // Heights alone are needed before the end, and reading numbers takes most of the time.
       const bool is_end = trajectory.time() >= end_of(scene_);
-      std::ranges::fill(heights, merged);
+      ranges::fill(heights, merged);
       trajectory.read([&](Entity body, const vector<string_view>& row, size_t first) {
         heights[body] = number_in(row[first + 1]).value_or(merged);
         Vec3 position, velocity;
@@ -161,7 +158,7 @@ bool is_drawn_by(const PossibleCharts& charts, string_view file) {
   const size_t slash = file.find('/');
   if (slash == string_view::npos || file.substr(0, slash) != plot_files.folder) return false;
   const string_view name = file.substr(slash + 1, file.rfind('.') - slash - 1);
-  return std::ranges::find(charts.names, name) != charts.names.end();
+  return contains(charts.names, name);
 }
 
 void read_charts(const FormerRun& former, const Scene& scene, RunCharts& charts, const ReadingWatch& watch) {

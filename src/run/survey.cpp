@@ -3,8 +3,6 @@
 // each run of a scene.
 #include "run/survey.h"
 
-#include <algorithm>
-
 #include "export/picture_streams.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -37,7 +35,7 @@ void Framing::advance() {
 void Framing::sample(Simulator& simulator) {
   for (Framed& framed : framed_) {
     const auto is_due = [&](int stream) { return timeline_.due(stream).has_value(); };
-    if (std::ranges::any_of(framed.streams, is_due)) framed.fit.add(simulator.state());
+    if (any_of(framed.streams, is_due)) framed.fit.add(simulator.state());
   }
   advance();
 }

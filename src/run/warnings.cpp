@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <variant>
 
 #include "physics/bounds.h"
@@ -67,7 +65,7 @@ class Warnings {
              "dependent figures across several seeds";
     const vector<Force>& forces = scene_.world.forces;
     const bool attracts =
-        std::ranges::any_of(forces, [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
+        any_of(forces, [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
     return attracts ? "shorten simulate.duration, or soften the attractor" : "shorten simulate.duration";
   }
 
@@ -75,7 +73,7 @@ class Warnings {
     const EnergyTotals& energy = summary_.energy;
     const double residual = energy.residual;
     const double least = energy_rounding * max(std::abs(energy.start), std::abs(energy.end));
-    if (std::isfinite(residual) && std::abs(residual) <= max(residual_share * energy.turnover, least)) return;
+    if (isfinite(residual) && std::abs(residual) <= max(residual_share * energy.turnover, least)) return;
     add("energy", fmt::format("the method {} {:.3g} J beyond impacts and work, {:.2g} of the energy turned over: {}",
                               residual > 0 ? "gained" : "lost", std::abs(residual),
                               std::abs(residual) / energy.turnover, remedy()));

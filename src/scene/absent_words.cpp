@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "scene/field.h"
 #include "std.h"
 
@@ -188,7 +186,7 @@ const AbsentWord* find_absent_word(string_view word) {
   for (const string& form : {plain, single})
     for (const AbsentWord& row : all_words) {
       const vector<string_view> words = parts_of(row.words);
-      if (std::ranges::find(words, form) != words.end()) return &row;
+      if (contains(words, form)) return &row;
     }
   return nullptr;
 }

@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
-
 #include "physics/force.h"
 #include "scene/engines.h"
 #include "scene/output_kinds.h"
@@ -24,16 +21,16 @@ Budget Budget::without_outputs() const {
 optional<double> steps_of(const Scene& scene) {
   const Simulate& simulate = scene.simulate;
   if (engine_of(scene.world, simulate) == Engine::exact || simulate.duration == 0) return nullopt;
-  if (simulate.step) return std::ceil(simulate.duration / *simulate.step);
+  if (simulate.step) return ceil(simulate.duration / *simulate.step);
   const double fine = default_step(scene.world, scene.initial);
-  return std::ceil(simulate.duration / (simulate.tolerance ? 64 * fine : fine));
+  return ceil(simulate.duration / (simulate.tolerance ? 64 * fine : fine));
 }
 
 vector<Excess> excesses(const Output& output, double duration, double bodies, const Budget& budget) {
   vector<Excess> found;
   for (const OutputKind& kind : output_kinds()) {
     if (kind.rows.empty() || !kind.asked(output)) continue;
-    const double instants = std::ceil(duration / kind.every(output)) + 1, rows = instants * bodies;
+    const double instants = ceil(duration / kind.every(output)) + 1, rows = instants * bodies;
     const uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
     if (rows > double(most_rows)) {
       found.push_back({&kind, rows, string(kind.rows), most_rows});

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "scene/field.h"
 #include "scene/value_at.h"
 #include "scene/view.h"
@@ -17,7 +15,7 @@ namespace {
 
 bool is_run_name(string_view name) {
   const vector<string_view> names = parts_of(caption_names);
-  return std::ranges::find(names, name) != names.end();
+  return contains(names, name);
 }
 
 /// Text in which braces are not read as names.
@@ -121,8 +119,8 @@ vector<CaptionPart> parts_of_caption(string_view caption) {
 
 bool has_name(string_view caption, string_view name) {
   const vector<CaptionPart> parts = parts_of_caption(caption);
-  return std::ranges::any_of(
-      parts, [&](const CaptionPart& part) { return part.kind == CaptionPart::Kind::name && part.text == name; });
+  return any_of(parts,
+                [&](const CaptionPart& part) { return part.kind == CaptionPart::Kind::name && part.text == name; });
 }
 
 string caption_text(string_view caption, const CaptionValues& values) {
@@ -141,7 +139,7 @@ string caption_text(string_view caption, const CaptionValues& values) {
 
 string decode_caption(const Node& root, Diagnostics& diagnostics) {
   const Node* node = root.find("caption");
-  if (node == nullptr || node->bad || !node->is(Node::Kind::scalar)) return "";
+  if (node == nullptr || node->bad || !node->is_scalar()) return "";
   if (!node->quoted && (node->text == "true" || node->text == "false"))
     return node->text == "true" ? string(usual_caption) : "";
   return CaptionDecoder(root, *node, diagnostics).run();

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <set>
 #include <tuple>
 
 #include "scene/absent_words.h"
@@ -38,7 +36,7 @@ vector<string_view> keys_of(const Kind& kind) {
 }
 
 bool is_before(const Place& a, const Place& b) {
-  return std::tie(a.source, a.offset) < std::tie(b.source, b.offset);
+  return tie(a.source, a.offset) < tie(b.source, b.offset);
 }
 
 class Checker : ValueChecker {
@@ -48,7 +46,7 @@ class Checker : ValueChecker {
 
   /// Checks a map of `kind`. `what` is its name in messages, `where` its key. `partial`: no key has to be present.
   void map(Node& node, const Kind& kind, const string& what, Place where, bool partial) {
-    if (!node.is(Node::Kind::map)) {
+    if (!node.is_map()) {
       wrong_type(node, what, "expected a map of keys");
       return;
     }
@@ -69,7 +67,7 @@ class Checker : ValueChecker {
     for (const Field& field : kind.fields) {
       if (field.type != Type::part || node.find_key(field.key) != nullptr || defaults == nullptr) continue;
       const Node* part = defaults->find(field.key);
-      if (part == nullptr || !part->is(Node::Kind::map) || field.held->defaults.empty()) continue;
+      if (part == nullptr || !part->is_map() || field.held->defaults.empty()) continue;
       Node whole = *part;
       needed(whole, defaults_for(root_, *field.held), *field.held, in_backticks(field.key), where);
     }
@@ -91,8 +89,8 @@ class Checker : ValueChecker {
       // A map without a needed key has an error about that already.
       const Field& with = *find_field(view.kind(), field.with);
       const vector<string_view> sparing = parts_of(field.spared_by), others = substitutes(with);
-      if (with.needed && std::ranges::none_of(others, [&](auto key) { return view.given(key) != nullptr; })) continue;
-      if (std::ranges::any_of(sparing, [&](auto key) { return view.given(key) != nullptr; })) continue;
+      if (with.needed && none_of(others, [&](auto key) { return view.given(key) != nullptr; })) continue;
+      if (any_of(sparing, [&](auto key) { return view.given(key) != nullptr; })) continue;
       const Key* key = node.find_key(field.key);
       node.bad = true;
       diagnostics_.add(key == nullptr ? view.where() : key->place,
@@ -104,7 +102,7 @@ class Checker : ValueChecker {
   /// Checks Kind::any_of.
   void one_of_any(Node& node, const Kind& kind, const string& what, Place where) {
     const vector<string_view> keys = parts_of(kind.any_of);
-    if (keys.empty() || std::ranges::any_of(keys, [&](auto key) { return node.find_key(key) != nullptr; })) return;
+    if (keys.empty() || any_of(keys, [&](auto key) { return node.find_key(key) != nullptr; })) return;
     string message = what + " has", remedy = "expected ";
     for (const string_view key : keys) {
       const bool first = key == keys.front();
@@ -122,7 +120,7 @@ class Checker : ValueChecker {
       if (find_field(kind, key.text) != nullptr) continue;
       const string near = meant(key.text, kind);
       const vector<string_view> others = substitutes(field);
-      if (near == field.key || std::ranges::find(others, near) != others.end()) return true;
+      if (near == field.key || contains(others, near)) return true;
     }
     return false;
   }
@@ -135,13 +133,13 @@ class Checker : ValueChecker {
   static void mark_cancelled(Node& node, const Kind& kind) {
     for (size_t i = 0; i < node.keys.size(); ++i) {
       Node& value = node.items[i];
-      if (value.text != "none" || !value.is(Node::Kind::scalar)) continue;
+      if (value.text != "none" || !value.is_scalar()) continue;
       const Field* field = find_field(kind, node.keys[i].text);
       if (field == nullptr || field->type == Type::text || field->type == Type::color_or_none || field->own) continue;
       // A file may have this name, in quotes.
       if (field->type == Type::file && value.quoted) continue;
       const vector<string_view> all = field->type == Type::choice ? choices(*field) : vector<string_view>();
-      value.cancels = std::ranges::find(all, "none") == all.end();
+      value.cancels = !contains(all, "none");
     }
   }
 
@@ -153,7 +151,7 @@ class Checker : ValueChecker {
   static bool has_any(const Node& node, const Node* defaults, const Field& field) {
     const vector<string_view> others = substitutes(field);
     return has(node, defaults, field.key) ||
-           std::ranges::any_of(others, [&](string_view other) { return has(node, defaults, other); });
+           any_of(others, [&](string_view other) { return has(node, defaults, other); });
   }
 
   void missing(const Node& node, const Node* defaults, const Kind& kind, const Field& field, const string& what,
@@ -180,15 +178,14 @@ class Checker : ValueChecker {
   /// A decimal comma in a flow map: `mass: 1,5` is a 1 and a key 5 without a value. Marks both as one number.
   bool decimal_comma(const Key& key, const Node& value, Node& map_node) {
     const auto i = size_t(&key - map_node.keys.data());
-    if (i == 0 || !value.is(Node::Kind::null)) return false;
+    if (i == 0 || !value.is_null()) return false;
 
     // The two parts stand side by side, and make a number.
     Node& whole = map_node.items[i - 1];
     const bool joined = whole.place.source == key.place.source &&
                         whole.place.offset + whole.place.length + 1 == key.place.offset;  // the comma
     const string point = whole.text + "." + key.text;
-    if (!joined || !whole.is(Node::Kind::scalar) || key.text.front() < '0' || key.text.front() > '9' ||
-        !parse_number(point))
+    if (!joined || !whole.is_scalar() || key.text.front() < '0' || key.text.front() > '9' || !parse_number(point))
       return false;
 
     diagnostics_.add({whole.place.source, whole.place.offset, whole.place.length + 1 + key.place.length},
@@ -201,7 +198,7 @@ class Checker : ValueChecker {
   void unknown_key(const Key& key, const Node& value, const Kind& kind, const string& what) {
     // In YAML, `radius 0.1` and `radius:0.1` are keys without a value.
     const size_t gap = key.text.find_first_of(": ");
-    if (value.is(Node::Kind::null) && gap != string::npos && gap > 0) {
+    if (value.is_null() && gap != string::npos && gap > 0) {
       const string_view head = string_view(key.text).substr(0, gap);
       size_t tail = key.text.find_first_not_of(": ", gap);
 
@@ -247,7 +244,7 @@ class Checker : ValueChecker {
   }
 
   void file(Node& value, const Field& field) {
-    if (!value.is(Node::Kind::scalar) || value.text.empty() || value.text.find('\n') != string::npos) {
+    if (!value.is_scalar() || value.text.empty() || value.text.find('\n') != string::npos) {
       wrong_type(value, in_backticks(field.key), "expected " + expected(field));
       return;
     }
@@ -264,19 +261,19 @@ class Checker : ValueChecker {
     if (field.type != Type::number && field.type != Type::vector) return false;
     const Range limits = limited_range(field);
     const auto is_good = [&](const Node& one) {
-      const bool plain = one.is(Node::Kind::scalar) && !one.quoted && !one.bad;
+      const bool plain = one.is_scalar() && !one.quoted && !one.bad;
       const optional<double> number = plain ? parse_number(one.text) : nullopt;
       return number && contains(field.range, *number) && contains(limits, *number);
     };
     if (field.type == Type::number) return is_good(value);
-    return value.is(Node::Kind::sequence) && value.items.size() == 3 && std::ranges::all_of(value.items, is_good);
+    return value.is_sequence() && value.items.size() == 3 && all_of(value.items, is_good);
   }
 
   void check_value(Node& value, const Field& field, const Key& key, bool partial) {
     if (value.bad || is_good_number(value, field)) return;
     const string name = in_backticks(field.key);
     const string required = "expected " + expected(field);
-    const bool is_scalar = value.is(Node::Kind::scalar), is_map = value.is(Node::Kind::map);
+    const bool is_scalar = value.is_scalar(), is_map = value.is_map();
 
     switch (field.type) {
       // Single values.
@@ -360,7 +357,7 @@ class Checker : ValueChecker {
   }
 
   static bool is_flag(const Node& value) {
-    return value.is(Node::Kind::scalar) && !value.quoted && (value.text == "true" || value.text == "false");
+    return value.is_scalar() && !value.quoted && (value.text == "true" || value.text == "false");
   }
 
   void flag(Node& value, const string& name, const string& required) {
@@ -368,7 +365,7 @@ class Checker : ValueChecker {
   }
 
   void text(Node& value, const string& name, const string& required) {
-    if (!value.is(Node::Kind::scalar)) {
+    if (!value.is_scalar()) {
       wrong_type(value, name, required);
     } else if (value.text.find('\n') != string::npos) {
       refuse(value, name + " has more than one line", "expected one line");
@@ -384,23 +381,22 @@ class Checker : ValueChecker {
 
   /// A remedy for an entry that stands in place of a list.
   static string list_of_one(const Node& value, const Field& field) {
-    if (value.is(Node::Kind::map)) return field.type == Type::list ? "\na list of one map is [{...}]" : "";
+    if (value.is_map()) return field.type == Type::list ? "\na list of one map is [{...}]" : "";
     const vector<string_view> words = parts_of(field.type == Type::list ? field.plain : field.of);
     const bool is_name = field.type == Type::names && words.empty();
-    const bool is_entry = is_name || std::ranges::find(words, value.text) != words.end();
-    return value.is(Node::Kind::scalar) && is_entry ? fmt::format("\na list of one is [{}]", printable(value.text))
-                                                    : "";
+    const bool is_entry = is_name || contains(words, value.text);
+    return value.is_scalar() && is_entry ? fmt::format("\na list of one is [{}]", printable(value.text)) : "";
   }
 
   void names(Node& value, const Field& field, const string& name, const string& required) {
-    if (!value.is(Node::Kind::sequence)) {
+    if (!value.is_sequence()) {
       wrong_type(value, name, required + list_of_one(value, field));
     } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
       refuse(value, fmt::format("{} has {}", name, how_many(value.items.size(), "entry", "entries")), required);
 
     } else {
       for (Node& item : value.items) {
-        if (!item.is(Node::Kind::scalar))
+        if (!item.is_scalar())
           wrong_type(item, "an entry of " + name, "expected a name");
         else if (!field.of.empty())
           choice(item, field, "an entry of " + name);
@@ -411,7 +407,7 @@ class Checker : ValueChecker {
   }
 
   void distinct(const Node& names, const string& name) {
-    std::set<string_view> found;
+    set<string_view> found;
     for (const Node& item : names.items)
       if (!item.bad && !found.insert(item.text).second)
         diagnostics_.add(item.place, fmt::format("{} has {} twice", name, in_backticks(item.text)),
@@ -419,7 +415,7 @@ class Checker : ValueChecker {
   }
 
   void list(Node& value, const Field& field, const string& name, const string& required) {
-    if (!value.is(Node::Kind::sequence)) {
+    if (!value.is_sequence()) {
       wrong_type(value, name, required + list_of_one(value, field));
       return;
     }
@@ -428,16 +424,16 @@ class Checker : ValueChecker {
 
     const vector<string_view> words = parts_of(field.plain);
     for (Node& item : value.items) {
-      if (words.empty() || !item.is(Node::Kind::scalar))
+      if (words.empty() || !item.is_scalar())
         map(item, *field.held, "this entry of " + name, item.place, false);
-      else if (std::ranges::find(words, item.text) == words.end())
+      else if (!contains(words, item.text))
         refuse(item, fmt::format("{} is no entry of {}", in_backticks(item.text), name),
                fmt::format("expected {}, or a map of {}", listed(words), listed(keys_of(*field.held))));
     }
   }
 
   void cases(Node& value, const string& name, const string& required) {
-    if (!value.is(Node::Kind::sequence)) {
+    if (!value.is_sequence()) {
       wrong_type(value, name, required);
     } else if (value.items.empty()) {
       refuse(value, name + " has no entries", required);
@@ -452,7 +448,7 @@ class Checker : ValueChecker {
   }
 
   void values(Node& value, const Field& field, const string& name, const string& required) {
-    if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
+    if (!value.is_map()) return wrong_type(value, name, required);
     Field each = field;
     each.type = Type::number;
     for (size_t i = 0; i < value.keys.size(); ++i) {
@@ -462,7 +458,7 @@ class Checker : ValueChecker {
   }
 
   void texts(Node& value, const string& name, const string& required) {
-    if (!value.is(Node::Kind::map)) return wrong_type(value, name, required);
+    if (!value.is_map()) return wrong_type(value, name, required);
     for (size_t i = 0; i < value.keys.size(); ++i) {
       const string shown = in_backticks(value.keys[i].text);
       if (!is_name(value.keys[i].text) || value.keys[i].text.find('-') != string::npos)
@@ -474,7 +470,7 @@ class Checker : ValueChecker {
   }
 
   bool has_entries(Node& value, const string& name, const string& required) {
-    if (!value.is(Node::Kind::map))
+    if (!value.is_map())
       wrong_type(value, name, required);
     else if (value.items.empty())
       refuse(value, name + " has no entries", required);
@@ -484,8 +480,7 @@ class Checker : ValueChecker {
   void settings(Node& value, const string& name, const string& required) {
     if (!has_entries(value, name, required)) return;
     for (size_t i = 0; i < value.keys.size(); ++i) {
-      if (value.items[i].is(Node::Kind::null))
-        wrong_type(value.items[i], in_backticks(value.keys[i].text), "expected a value");
+      if (value.items[i].is_null()) wrong_type(value.items[i], in_backticks(value.keys[i].text), "expected a value");
     }
   }
 
@@ -496,15 +491,15 @@ class Checker : ValueChecker {
       Node& values = value.items[i];
 
       // A range, or a list of values.
-      if (values.is(Node::Kind::map)) {
+      if (values.is_map()) {
         map(values, kind_named("range"), path, value.keys[i].place, false);
-      } else if (!values.is(Node::Kind::sequence)) {
+      } else if (!values.is_sequence()) {
         wrong_type(values, path, "expected a list of values, or {from, to, count} or {from, to, step}");
       } else if (values.items.empty()) {
         refuse(values, path + " has no values", "expected at least one");
       } else {
         for (Node& item : values.items)
-          if (item.is(Node::Kind::null)) wrong_type(item, "an entry of " + path, "expected a value");
+          if (item.is_null()) wrong_type(item, "an entry of " + path, "expected a value");
       }
     }
   }
@@ -516,7 +511,7 @@ class Checker : ValueChecker {
   }
 
   void named(Node& value, const Field& field, const string& name) {
-    if (!value.is(Node::Kind::map)) {
+    if (!value.is_map()) {
       wrong_type(value, name, "expected " + expected(field));
       return;
     }
@@ -571,7 +566,7 @@ const Node* defaults_for(const Node& root, const Kind& kind) {
   if (kind.defaults.empty()) return nullptr;
   const Node* defaults = root.find("defaults");
   const Node* node = defaults == nullptr ? nullptr : defaults->find(kind.defaults);
-  return node != nullptr && node->is(Node::Kind::map) ? node : nullptr;
+  return node != nullptr && node->is_map() ? node : nullptr;
 }
 
 string beneath(const string& folder, const string& path) {

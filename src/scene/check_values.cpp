@@ -59,7 +59,7 @@ void ValueChecker::wrong_type(Node& node, const string& name, const string& requ
 
 bool ValueChecker::number(Node& value, const Field& field, const string& name, const Range& limits) {
   if (value.bad) return false;
-  if (!value.is(Node::Kind::scalar)) {
+  if (!value.is_scalar()) {
     wrong_type(value, name, "expected " + expected(field));
     return false;
   }
@@ -87,7 +87,7 @@ bool ValueChecker::number(Node& value, const Field& field, const string& name, c
 }
 
 bool ValueChecker::whole(Node& value, const Field& field, const string& name) {
-  if (value.is(Node::Kind::scalar) && !value.quoted && !value.bad) {
+  if (value.is_scalar() && !value.quoted && !value.bad) {
     const optional<uint64_t> parsed = parse_whole(value.text);
     if (parsed && contains(field.range, double(*parsed))) return true;
     if (parse_number(value.text)) {
@@ -100,7 +100,7 @@ bool ValueChecker::whole(Node& value, const Field& field, const string& name) {
 
 bool ValueChecker::numbers(Node& value, const Field& field, const string& name) {
   const size_t count = parts_of(facts_of(field.type).components).size();
-  if (!value.is(Node::Kind::sequence)) {
+  if (!value.is_sequence()) {
     wrong_type(value, name, "expected " + expected(field));
     return false;
   }
@@ -129,7 +129,7 @@ bool ValueChecker::numbers(Node& value, const Field& field, const string& name) 
 
 void ValueChecker::choice(Node& value, const Field& field, const string& name) {
   const string required = "expected " + expected(field);
-  if (!value.is(Node::Kind::scalar)) {
+  if (!value.is_scalar()) {
     wrong_type(value, name, required);
     return;
   }
@@ -155,14 +155,13 @@ void ValueChecker::color(Node& value, const string& name, ColorWords words) {
       or_none{.key = "color", .type = Type::color_or_none};
   const bool may_be_none = words == ColorWords::colors_and_none;
   const string required = "expected " + expected(may_be_none ? or_none : plain);
-  if (value.is(Node::Kind::sequence) && value.items.size() == 3) {
+  if (value.is_sequence() && value.items.size() == 3) {
     numbers(value, component, name);
-  } else if (value.is(Node::Kind::sequence)) {
+  } else if (value.is_sequence()) {
     refuse(value, wrong_count(name, value.items.size()), required);
-  } else if (!value.is(Node::Kind::scalar)) {
+  } else if (!value.is_scalar()) {
     // An unquoted # begins a comment, so the value is lost.
-    wrong_type(value, name,
-               value.is(Node::Kind::null) ? required + "\na colour that begins with # needs quotes" : required);
+    wrong_type(value, name, value.is_null() ? required + "\na colour that begins with # needs quotes" : required);
   } else if (!parse_color(value.text) && !(may_be_none && value.text == "none")) {
     vector<string_view> all = color_names();
     if (may_be_none) all.insert(all.begin(), "none");

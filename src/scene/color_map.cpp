@@ -8,8 +8,6 @@
 // released under CC0.
 #include "scene/color_map.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {

@@ -3,10 +3,6 @@
 // would get scales that differ by chance.
 #include "scene/color_scale.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -14,7 +10,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = numeric_limits<double>::infinity();
 constexpr double most_collisions = 10;
 
 /// The way (m) from x along the unit vector `down` to the nearest plane.
@@ -42,11 +37,11 @@ enum class Rounding : uint8_t { down, up };
 
 /// `value` > 0, rounded to two digits: 0.206155 up to 0.21. Two digits keep most masses and radii of authors.
 double to_two_digits(double value, Rounding rounding) {
-  const int exponent = int(std::floor(std::log10(value))) - 1;
-  const double power = std::pow(10, std::abs(exponent));
+  const int exponent = int(floor(std::log10(value))) - 1;
+  const double power = pow(10, std::abs(exponent));
   const double units = exponent < 0 ? value * power : value / power;
   // 0.3 / 0.01 is not 30.
-  const double whole = rounding == Rounding::up ? std::ceil(units * (1 - 1e-9)) : std::floor(units * (1 + 1e-9));
+  const double whole = rounding == Rounding::up ? ceil(units * (1 - 1e-9)) : floor(units * (1 + 1e-9));
   return exponent < 0 ? whole / power : whole * power;
 }
 
@@ -106,13 +101,13 @@ double expected_speed(const Scene& scene, Entity body) {
   const Vec3 down = world.gravity / g, &x = scene.initial.position[body];
   double fall = way_to_plane(world, x, down);
   if (fall == infinity) fall = way_to_lowest(world, x, down);
-  if (fall >= 0) return std::sqrt(speed * speed + 2 * g * fall);
+  if (fall >= 0) return sqrt(speed * speed + 2 * g * fall);
   return (v + scene.simulate.duration * world.gravity).norm();
 }
 
 double rounded_up(double value) {
   if (!(value > 0)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(value)));
+  const double power = pow(10, floor(std::log10(value)));
   // Rounding of the logarithm may take the power next to it.
   for (const double scale : {power / 10, power, 10 * power}) {
     for (const double mantissa : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0})

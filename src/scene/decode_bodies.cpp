@@ -4,8 +4,6 @@
 // so that editing one group leaves the numbers of the others unchanged.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "physics/world.h"
@@ -129,7 +127,7 @@ class Bodies {
   /// Places the balls of a group that lists them. `velocity`: of balls without one, in m/s.
   void members(const BodyEntry& body, const optional<Vec3>& velocity) {
     const Node& list = *body.view.given("members");
-    if (!list.is(Node::Kind::sequence)) return;
+    if (!list.is_sequence()) return;
 
     if (list.items.size() != body.count) {
       diagnostics_.add(body.view.place("members"),
@@ -153,7 +151,7 @@ class Bodies {
   /// Groups with large members first, which makes the grid's searches cheap.
   /// The order inside a group and its random stream do not depend on that.
   void groups() {
-    std::ranges::stable_sort(groups_, [&](const BodyEntry* a, const BodyEntry* b) {
+    ranges::stable_sort(groups_, [&](const BodyEntry* a, const BodyEntry* b) {
       return world_.radius[a->first] > world_.radius[b->first];
     });
     for (const BodyEntry* body : groups_) one_group(*body);
@@ -190,7 +188,7 @@ class Bodies {
       return;
     }
 
-    std::ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
+    ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
     set_velocities(body, group);
   }

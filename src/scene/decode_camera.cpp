@@ -3,8 +3,6 @@
 // in time, so that its distance from the up direction is known for every instant.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "numerics/monotone_path.h"
 #include "numerics/polynomial.h"
 #include "physics/center_of_mass.h"
@@ -78,7 +76,7 @@ class CameraDecoder {
     plan_.fit = keys_.fit.has_value();
     if (keys_.follow != nullptr) {
       follow(*keys_.follow);
-    } else if (path != nullptr && path->is(Node::Kind::sequence)) {
+    } else if (path != nullptr && path->is_sequence()) {
       for (const Node& node : path->items) add_keyframe(node);
       check_between(path->items);
     } else if (view_.vector("eye") && view_.vector("target")) {

@@ -3,8 +3,6 @@
 // Its keys without a good value keep their defaults.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/fields.h"
@@ -75,11 +73,11 @@ void add_obstacle(const View& view, const string& name, Forms& forms, Scene& sce
 /// The legs of a thing's motion. None: it has no `motion`, or it never moves.
 vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
   const Node* const list = thing.find("motion");
-  if (list == nullptr || !list->is(Node::Kind::sequence)) return {};
+  if (list == nullptr || !list->is_sequence()) return {};
 
   vector<MotionWindow> windows;
   for (const Node& node : list->items) {
-    if (!node.is(Node::Kind::map)) continue;
+    if (!node.is_map()) continue;
     const View view(&node, kind_named("motion"), node.place);
     const auto [from, until, velocity] = filled<MotionKeys>(view);
 
@@ -117,7 +115,7 @@ Vec3 default_up(const Vec3& unit_normal) {
 
 Vec3 unit(const Vec3& v) {
   const Vec3 scaled = v / v.cwiseAbs().maxCoeff();
-  return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
+  return scaled / sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
 }
 
 void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics) {

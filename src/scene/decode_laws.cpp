@@ -2,8 +2,6 @@
 // A force without effect (zero strength, no bodies) is left out of the world.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/fields.h"
@@ -24,7 +22,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
   if (!a || !b || !value) return;
 
   // Two things that can meet.
-  for (const auto& [range, name] : {std::pair(*a, between->items.front()), std::pair(*b, between->items.back())}) {
+  for (const auto& [range, name] : {pair(*a, between->items.front()), pair(*b, between->items.back())}) {
     if (!inventory.is_string(range)) continue;
     diagnostics.add(name.place, fmt::format("{} is a string: it meets no other thing", in_backticks(name.text)),
                     "its coefficient is its own `restitution`");
@@ -98,9 +96,9 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   scene.world.combine = filled<RestitutionKeys>(laws).combine;
   if (!inventory.fits) return;
   const auto each = [](const Node* list, const auto& decode) {
-    if (list == nullptr || !list->is(Node::Kind::sequence)) return;
+    if (list == nullptr || !list->is_sequence()) return;
     for (const Node& node : list->items) {
-      if (node.is(Node::Kind::map) && node.find_key("repeat") == nullptr) decode(node);
+      if (node.is_map() && node.find_key("repeat") == nullptr) decode(node);
     }
   };
   each(laws.find("pairs"), [&](const Node& node) { decode_pair(node, inventory, scene, diagnostics); });

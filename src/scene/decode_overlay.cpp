@@ -2,8 +2,6 @@
 // ends of a scale may follow from these.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "scene/caption.h"
 #include "scene/color_scale.h"
@@ -22,7 +20,7 @@ constexpr double widest_trail = 1000;  // largest radii
 
 void check_width(const View& part, optional<double> width, const World& world, Diagnostics& diagnostics) {
   if (!width || world.radius.empty()) return;
-  const double largest = *std::ranges::max_element(world.radius);
+  const double largest = *ranges::max_element(world.radius);
   if (*width <= widest_trail * largest) return;
   diagnostics.add(part.place("width"),
                   fmt::format("trails of {} m are more than {:g} times as wide as the largest radius, {} m",
@@ -42,8 +40,7 @@ optional<Trails> decode_trails(const View& whole, const Inventory& inventory, co
 }
 
 bool lists(const Node* names, string_view name) {
-  return names != nullptr && !names->bad &&
-         std::ranges::any_of(names->items, [&](const Node& item) { return item.text == name; });
+  return names != nullptr && !names->bad && any_of(names->items, [&](const Node& item) { return item.text == name; });
 }
 
 void check_coloring(const View& body, const Coloring& coloring, const Scene& scene, Diagnostics& diagnostics) {

@@ -2,8 +2,6 @@
 // A region with an error still gets a number, so that the numbers of the others do not shift.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/expand.h"
@@ -56,21 +54,21 @@ class Regions {
 
   void run() {
     const Node* regions = root_.find("regions");
-    for (size_t i = 0; regions != nullptr && regions->is(Node::Kind::map) && i < regions->keys.size(); ++i) {
+    for (size_t i = 0; regions != nullptr && regions->is_map() && i < regions->keys.size(); ++i) {
       const Key& key = regions->keys[i];
       if (inventory_.names.contains(key.text))
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
                          "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene");
 
-      if (regions->items[i].is(Node::Kind::map) && regions->items[i].find_key("repeat") != nullptr) continue;
+      if (regions->items[i].is_map() && regions->items[i].find_key("repeat") != nullptr) continue;
       const View view(&regions->items[i], kind_named("region"), key.place);
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
       scene_.roster.regions.push_back(key.text);
     }
 
     const Node* stops = scene_part(root_, "simulate").given("stop");
-    if (stops == nullptr || !stops->is(Node::Kind::sequence)) return;
-    for (const Node& stop : stops->items) stop.is(Node::Kind::map) ? add(stop) : add_word(stop);
+    if (stops == nullptr || !stops->is_sequence()) return;
+    for (const Node& stop : stops->items) stop.is_map() ? add(stop) : add_word(stop);
   }
 
  private:
@@ -82,12 +80,12 @@ class Regions {
     const auto [collisions, region] = filled<StopKeys>(View(&node, kind_named("stop"), node.place));
     if (collisions)
       scene_.simulate.stop_collisions = min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
-    if (region == nullptr || region->bad || !region->is(Node::Kind::scalar)) return;
+    if (region == nullptr || region->bad || !region->is_scalar()) return;
 
     // A region, all members of a repeated one, or one that is repeated no time.
     const vector<string>& names = scene_.roster.regions;
     const vector<EmptyFamily>& empty = scene_.roster.empty;
-    bool found = std::ranges::any_of(empty, [&name = region->text](const EmptyFamily& family) {
+    bool found = any_of(empty, [&name = region->text](const EmptyFamily& family) {
       return family.of == "regions" && family.name == name;
     });
 

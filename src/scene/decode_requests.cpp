@@ -2,9 +2,6 @@
 // The table of fields fills the structs. The checks here concern several keys at once, or the budget.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "scene/decode.h"
@@ -56,7 +53,7 @@ class Requests {
 
   void lights() {
     const Node* node = root_.find("lights");
-    if (node == nullptr || !node->is(Node::Kind::map)) return;
+    if (node == nullptr || !node->is_map()) return;
 
     for (size_t i = 0; i < node->keys.size(); ++i) {
       if (node->keys[i].text == "ambient") {
@@ -114,8 +111,8 @@ class Requests {
   }
 
   void check_video(const View& part, VideoOutput& video) {
-    const bool plain = std::ranges::all_of(
-        video.file, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\'; });
+    const bool plain =
+        all_of(video.file, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != '/' && c != '\\'; });
     const optional<FilmFormat> format = film_format(video.file);
     if (!plain || !format || video.file.size() > 200 || video.file[0] == '.' || video.file[0] == '-') {
       diagnostics_.add(part.place("file"), fmt::format("{} is not a name for a video", in_backticks(video.file)),
@@ -203,12 +200,12 @@ class Requests {
 
   double count(const FramesOutput& frames) const {
     const double until = frames.until.value_or(scene_.simulate.duration);
-    return max(0.0, std::floor(until * frames.fps) - std::ceil(frames.from * frames.fps) + 1);
+    return max(0.0, floor(until * frames.fps) - ceil(frames.from * frames.fps) + 1);
   }
 
   double count(const VideoOutput& video) const {
     const double until = video.until.value_or(scene_.simulate.duration);
-    return max(0.0, std::floor((until - video.from) * video.fps / video.speed) + 1);
+    return max(0.0, floor((until - video.from) * video.fps / video.speed) + 1);
   }
 
   void check_budget() {

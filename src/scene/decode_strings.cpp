@@ -2,9 +2,6 @@
 // A string with an error still gets a number, so that the numbers of the others do not shift.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/member.h"
@@ -62,7 +59,7 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
   string.rod = keys.rod;
 
   const bool good = keys.from != nullptr && keys.to != nullptr && !keys.from->bad && !keys.to->bad;
-  const bool is_point = keys.from != nullptr && keys.from->is(Node::Kind::sequence);
+  const bool is_point = keys.from != nullptr && keys.from->is_sequence();
   if (!good) return string;
 
   // Its ends.

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "scene/field.h"
@@ -62,7 +60,7 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (!world.obstacles.empty()) lack("obstacles", "obstacles", "`engine: exact`");
   if (!world.strings.empty()) lack("strings", "strings", "`engine: exact`");
   if (world.moves()) lack("engine", "fixed things that move", "`engine: exact`");
-  if (std::ranges::any_of(world.regions, [](const WorldRegion& region) { return region.removes; }))
+  if (any_of(world.regions, [](const WorldRegion& region) { return region.removes; }))
     lack("regions", "regions with `action: remove`", "`engine: exact`");
 
   if (!world.forces.empty())

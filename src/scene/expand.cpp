@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "scene/expressions.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
@@ -34,7 +31,7 @@ bool has_shorthands(const Node& node) {
   if (is_expression(node) || has_braces(node)) return true;
   for (const Key& key : node.keys)
     if (key.text == repeat_key || key.text == "let") return true;
-  return std::ranges::any_of(node.items, has_shorthands);
+  return any_of(node.items, has_shorthands);
 }
 
 size_t count_values(const Node& node) {
@@ -50,18 +47,18 @@ bool is_text(const Field& field) {
   if (inside == Inside::text || inside == Inside::counts || inside == Inside::values) return true;
   if (field.type != Type::choice) return false;
   const vector<string_view> all = choices(field);
-  return std::ranges::none_of(all, [](string_view one) { return parse_number(one).has_value(); });
+  return none_of(all, [](string_view one) { return parse_number(one).has_value(); });
 }
 
 /// The last step of the path of a number in a list of them.
 string step_of(const Field& field, size_t i) {
   const vector<string_view> components = parts_of(facts_of(field.type).components);
-  return i < components.size() ? string(components[i]) : std::to_string(i);
+  return i < components.size() ? string(components[i]) : to_string(i);
 }
 
 /// The parts of a path before and after the number of a member: "bodies.bricks" and ".mass" of "bodies.bricks.3.mass".
 /// The first is empty if the path has none.
-std::pair<string, string> without_member(string_view path) {
+pair<string, string> without_member(string_view path) {
   const size_t name = path.find('.'), number = path.find('.', name + 1);
   if (name == string_view::npos || number == string_view::npos) return {};
   const size_t end = min(path.find('.', number + 1), path.size());
@@ -75,7 +72,7 @@ class Expander {
 
   ExpressionTexts run(Node& root) {
     values_ = double(count_values(root));
-    if (Node* let = root.find("let"); let != nullptr && let->is(Node::Kind::map)) {
+    if (Node* let = root.find("let"); let != nullptr && let->is_map()) {
       for (size_t i = 0; i < let->keys.size(); ++i) note("let." + let->keys[i].text, let->items[i]);
       numbers_ = read_let(*let, diagnostics_);
     }
@@ -96,7 +93,7 @@ class Expander {
   };
 
   void map(Node& node, const Kind& kind, const string& path) {
-    if (!node.is(Node::Kind::map)) return;
+    if (!node.is_map()) return;
     for (size_t i = 0; i < node.keys.size(); ++i) {
       const Field* field = find_field(kind, node.keys[i].text);
       if (field != nullptr && !is_text(*field))
@@ -107,12 +104,12 @@ class Expander {
   void value(Node& node, const Field& field, const string& path) {
     if (field.type == Type::named) return named(node, *field.held, path);
     if (field.type == Type::list) return list(node, *field.held, path);
-    if (node.is(Node::Kind::map)) {
+    if (node.is_map()) {
       if (holds_map(field)) map(node, *field.held, path);
       return;
     }
     scalar(node, path);
-    if (!node.is(Node::Kind::sequence)) return;
+    if (!node.is_sequence()) return;
     for (size_t i = 0; i < node.items.size(); ++i)
       if (is_expression(node.items[i]) || has_braces(node.items[i]))
         scalar(node.items[i], path + "." + step_of(field, i));
@@ -137,7 +134,7 @@ class Expander {
     if (texts_.lower_bound("defaults.") == texts_.lower_bound("defaults/")) return;
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? root.find(field.key) : nullptr;
-      if (things == nullptr || !things->is(Node::Kind::map)) continue;
+      if (things == nullptr || !things->is_map()) continue;
 
       const Kind& kind = *field.held;
       for (size_t i = 0; i < things->keys.size(); ++i) {
@@ -162,7 +159,7 @@ class Expander {
       const Field* field = find_field(kind, string_view(rest).substr(0, rest.find('.')));
       if (field == nullptr || thing.find_key(field->key) != nullptr || texts_.size() > most_texts) continue;
       const vector<string_view> others = rivals(*field);
-      if (std::ranges::none_of(others, [&](auto key) { return thing.find_key(key) != nullptr; }))
+      if (none_of(others, [&](auto key) { return thing.find_key(key) != nullptr; }))
         texts_.emplace(path + "." + rest, text->second);
     }
   }
@@ -192,11 +189,11 @@ class Expander {
   }
 
   static bool is_repeated(const Node& node, const Kind& kind) {
-    return node.is(Node::Kind::map) && node.find_key(repeat_key) != nullptr && find_field(kind, repeat_key) != nullptr;
+    return node.is_map() && node.find_key(repeat_key) != nullptr && find_field(kind, repeat_key) != nullptr;
   }
 
   void named(Node& node, const Kind& kind, const string& path) {
-    if (!node.is(Node::Kind::map)) return;
+    if (!node.is_map()) return;
 
     bool repeats = false;
     for (size_t i = 0; i < node.keys.size(); ++i) {
@@ -234,7 +231,7 @@ class Expander {
   }
 
   void list(Node& node, const Kind& kind, const string& path) {
-    if (!node.is(Node::Kind::sequence)) return;
+    if (!node.is_sequence()) return;
     vector<Node> made;
     for (Node& item : node.items) {
       if (is_repeated(item, kind)) {
@@ -346,18 +343,18 @@ class Expander {
       if (!slot || !slot->fill(numbers_, diagnostics_)) return nullopt;
     }
 
-    const bool is_number = node.is(Node::Kind::scalar) && !node.quoted;
+    const bool is_number = node.is_scalar() && !node.quoted;
     const optional<double> value = is_number ? parse_number(node.text) : nullopt;
-    if (value && *value >= 0 && std::floor(*value) == *value) return value;
+    if (value && *value >= 0 && floor(*value) == *value) return value;
 
     node.bad = true;
     if (diagnostics_.added() == errors)
       diagnostics_.add(place,
                        fmt::format("{} is {}", name,
-                                   node.is(Node::Kind::null)     ? "empty"
-                                   : node.is(Node::Kind::scalar) ? in_backticks(node.text)
-                                   : node.is(Node::Kind::map)    ? "a map of keys"
-                                                                 : "a list"),
+                                   node.is_null()     ? "empty"
+                                   : node.is_scalar() ? in_backticks(node.text)
+                                   : node.is_map()    ? "a map of keys"
+                                                      : "a list"),
                        "expected a whole number of at least 0");
     return nullopt;
   }
@@ -366,7 +363,7 @@ class Expander {
     Counts counts;
     bool good = true;
 
-    if (node.is(Node::Kind::map)) {
+    if (node.is_map()) {
       if (node.items.empty() || node.items.size() > most_indices) {
         diagnostics_.add(node.place, fmt::format("`repeat` has {} indices", node.items.size()),
                          fmt::format("expected 1 to {}, such as {{i: 6, j: 4}}", most_indices));
@@ -408,7 +405,7 @@ class Expander {
     return counts;
   }
 
-  static Place place_of_repeat(const Node& node, Place where) { return node.is(Node::Kind::null) ? where : node.place; }
+  static Place place_of_repeat(const Node& node, Place where) { return node.is_null() ? where : node.place; }
 
   /// A letter that is neither a name of `let` nor an index of this `repeat`.
   string free_index(const Node& repeat) const {
@@ -458,12 +455,12 @@ void write_out_balls(Node& root) {
   const Node* ball = defaults == nullptr ? nullptr : defaults->find("ball");
   const Node* group = defaults == nullptr ? nullptr : defaults->find("group");
   const Node* common = group == nullptr ? nullptr : group->find("ball");
-  if (ball == nullptr || ball->keys.empty() || (common != nullptr && common->is(Node::Kind::map))) return;
+  if (ball == nullptr || ball->keys.empty() || (common != nullptr && common->is_map())) return;
 
   Node* groups = root.find("groups");
   for (size_t i = 0; groups != nullptr && i < groups->keys.size(); ++i) {
     Node& each = groups->items[i];
-    if (!each.is(Node::Kind::map) || each.find("ball") != nullptr) continue;
+    if (!each.is_map() || each.find("ball") != nullptr) continue;
     const Place where = groups->keys[i].place;
     each.keys.push_back({"ball", where});
     Node& empty = each.items.emplace_back();
@@ -476,10 +473,10 @@ void write_out_balls(Node& root) {
 
 void write_out(Node& part, const Kind& kind) {
   for (const Field& field : kind.fields) {
-    if (field.type != Type::part || !part.is(Node::Kind::map)) continue;
+    if (field.type != Type::part || !part.is_map()) continue;
     Node* value = part.find(field.key);
-    if (value != nullptr && value->is(Node::Kind::map)) write_out(*value, *field.held);
-    if (field.plain.empty() || value == nullptr || !value->is(Node::Kind::scalar)) continue;
+    if (value != nullptr && value->is_map()) write_out(*value, *field.held);
+    if (field.plain.empty() || value == nullptr || !value->is_scalar()) continue;
     Node whole;
     whole.kind = Node::Kind::map;
     whole.place = value->place;

@@ -1,6 +1,5 @@
 #pragma once
 // The tree of a scene file without its shorthands: expressions become numbers, repeated things their members.
-#include <map>
 
 #include "scene/budget.h"
 #include "std.h"
@@ -12,7 +11,7 @@ namespace carom {
 /// The texts of expressions, by paths as --set takes them: "balls.red.position.x". A repeated thing has one for all its
 /// members, and "bricks.repeat" for their number. A thing has those of its defaults that it uses.
 /// Expressions of repeated entries of a list, which have no name, are absent. Of very many none is kept.
-using ExpressionTexts = std::map<string, string>;
+using ExpressionTexts = map<string, string>;
 
 /// The text of the expression that made the value at a path of a resolved scene. Null: none did, or it is not known.
 const string* expression_at(const ExpressionTexts& texts, string_view path);

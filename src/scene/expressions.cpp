@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 #include "yaml/values.h"
 
@@ -72,7 +69,7 @@ class LetReader {
   void evaluate(size_t i) {
     Node& node = let_.items[i];
     if (!is_expression(node)) {
-      const optional<double> value = node.is(Node::Kind::scalar) && !node.quoted ? parse_number(node.text) : nullopt;
+      const optional<double> value = node.is_scalar() && !node.quoted ? parse_number(node.text) : nullopt;
       if (value) set(i, *value);
       return;
     }
@@ -103,7 +100,7 @@ class LetReader {
 
   string circle(size_t from) const {
     string names;
-    for (auto at = std::ranges::find(path_, from); at != path_.end(); ++at) names += numbers_.names[*at] + " -> ";
+    for (auto at = ranges::find(path_, from); at != path_.end(); ++at) names += numbers_.names[*at] + " -> ";
     return fmt::format("{} depends on itself: {}{}", in_backticks(numbers_.names[from]), names, numbers_.names[from]);
   }
 
@@ -123,15 +120,15 @@ void NamedNumbers::add(string name, double value) {
 }
 
 bool NamedNumbers::has(string_view name) const {
-  return std::ranges::find(names, name) != names.end();
+  return contains(names, name);
 }
 
 bool is_expression(const Node& node) {
-  return node.is(Node::Kind::scalar) && node.text.starts_with('=');
+  return node.is_scalar() && node.text.starts_with('=');
 }
 
 bool has_braces(const Node& node) {
-  return node.is(Node::Kind::scalar) && node.text.find('{') != string::npos;
+  return node.is_scalar() && node.text.find('{') != string::npos;
 }
 
 NamedNumbers read_let(Node& let, Diagnostics& diagnostics) {
@@ -193,7 +190,7 @@ optional<double> Slot::evaluate(const Piece& piece, const NamedNumbers& numbers,
     if (!numbers.known[used]) return nullopt;  // its error was reported
   try {
     const double value = piece.formula->value(numbers.values);
-    if (!is_name_ || (std::floor(value) == value && std::abs(value) < 1e15)) return value;
+    if (!is_name_ || (floor(value) == value && std::abs(value) < 1e15)) return value;
     throw FormulaError{0, 1, fmt::format("the number in this name is {}", shortest(value)), "expected a whole number"};
   } catch (const FormulaError& error) {
     diagnostics.add(place_in(original_, piece.at, error), error.message, error.remedy);

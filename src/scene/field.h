@@ -1,7 +1,6 @@
 #pragma once
 // A row of the scene format, and what follows from it alone. A key is a row of the table (fields.h).
 // Where maps of its kind fill a struct, it is also a member of that struct (member.h).
-#include <limits>
 #include <nlohmann/json_fwd.hpp>
 
 #include "std.h"
@@ -45,8 +44,8 @@ enum class Type : uint8_t {
 
 /// Numbers from `min` to `max`, ends included unless a flag excludes them.
 struct Range {
-  double min = -numeric_limits<double>::infinity();
-  double max = numeric_limits<double>::infinity();
+  double min = -infinity;
+  double max = infinity;
   bool above_min = false;  // min itself is not allowed
   bool below_max = false;  // max itself is not allowed
   bool even = false;       // whole numbers only

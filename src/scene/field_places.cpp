@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "scene/absent_words.h"
 #include "scene/check.h"
 #include "std.h"
@@ -125,7 +123,7 @@ vector<string> texts_of(const vector<Spot>& spots) {
   vector<string> texts;
   for (const Spot& spot : spots) {
     string text = path_text(spot.steps);
-    if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
+    if (!contains(texts, text)) texts.push_back(std::move(text));
   }
   return texts;
 }
@@ -135,10 +133,9 @@ vector<FieldPlaces> select(const Fits& fits) {
   vector<FieldPlaces> found;
   for (const Spot& spot : all_spots()) {
     if (!fits(spot)) continue;
-    auto row =
-        std::ranges::find_if(found, [&](const FieldPlaces& other) { return are_equal(*other.field, *spot.field); });
+    auto row = ranges::find_if(found, [&](const FieldPlaces& other) { return are_equal(*other.field, *spot.field); });
     if (row == found.end()) row = found.insert(found.end(), {spot.field, {}, {}});
-    if (std::ranges::find(row->kinds, spot.kind) == row->kinds.end()) row->kinds.push_back(spot.kind);
+    if (!contains(row->kinds, spot.kind)) row->kinds.push_back(spot.kind);
     row->paths.push_back(path_text(spot.steps));
   }
   return found;
@@ -182,7 +179,7 @@ vector<string> settable_paths() {
   collect(families().front().front(), {}, spots);
   std::erase_if(spots, [](const Spot& spot) {
     return spot.field->held != nullptr ||
-           std::ranges::any_of(spot.steps, [](auto step) { return step == any_name || step == any_entry; });
+           any_of(spot.steps, [](auto step) { return step == any_name || step == any_entry; });
   });
   return texts_of(spots);
 }

@@ -1,5 +1,4 @@
 // What the code asks about a type stands here once, a row for each. A new type is one row, a check and a schema.
-#include <algorithm>
 
 #include "scene/field.h"
 #include "std.h"
@@ -45,7 +44,7 @@ constexpr TypeFacts all_types[] = {
 
 constexpr bool is_in_order() {
   size_t i = 0;
-  return std::ranges::all_of(all_types, [&](const TypeFacts& row) { return row.type == static_cast<Type>(i++); });
+  return all_of(all_types, [&](const TypeFacts& row) { return row.type == static_cast<Type>(i++); });
 }
 static_assert(is_in_order());
 

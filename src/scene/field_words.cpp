@@ -2,9 +2,7 @@
 // The same words serve messages, the schema, the page of the format and `carom explain`.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <iterator>
 
 #include "scene/field.h"
@@ -27,7 +25,7 @@ string plain(double value) {
 }  // namespace
 
 const Field* find_field(const Kind& kind, string_view key) {
-  const auto found = std::ranges::find(kind.fields, key, &Field::key);
+  const auto found = ranges::find(kind.fields, key, &Field::key);
   return found == kind.fields.end() ? nullptr : &*found;
 }
 
@@ -95,7 +93,7 @@ vector<string_view> parts_of(string_view text) {
 
 bool has_part(string_view text, string_view part) {
   const vector<string_view> parts = parts_of(text);
-  return std::ranges::find(parts, part) != parts.end();
+  return contains(parts, part);
 }
 
 vector<string_view> rivals(const Field& field) {
@@ -123,7 +121,7 @@ vector<vector<string_view>> needs_of(const Kind& kind) {
 
 vector<string_view> need_with(const Kind& kind, const Field& field) {
   for (const vector<string_view>& keys : needs_of(kind))
-    if (std::ranges::find(keys, field.key) != keys.end()) return keys;
+    if (contains(keys, field.key)) return keys;
   return {};
 }
 

@@ -3,10 +3,8 @@
 // The table is completed at first use, because texts of defaults cannot be made at compile time.
 #include "scene/fields.h"
 
-#include <algorithm>
 #include <cstdlib>
 #include <deque>
-#include <map>
 
 #include "scene/engines.h"
 #include "scene/keys.h"
@@ -20,7 +18,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = numeric_limits<double>::infinity();
 constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range from_1{1, infinity, false, false};
@@ -380,7 +377,7 @@ class FormatTable {
 
   const Kind* find(string_view name) const {
     for (const vector<Kind>* kinds : {&scenes_, &sweeps_})
-      if (const auto kind = std::ranges::find(*kinds, name, &Kind::name); kind != kinds->end()) return &*kind;
+      if (const auto kind = ranges::find(*kinds, name, &Kind::name); kind != kinds->end()) return &*kind;
     return nullptr;
   }
 
@@ -409,8 +406,8 @@ class FormatTable {
 
   /// The texts that the rows refer to.
   std::deque<string> texts_;
-  std::map<string_view, Node> nodes_;  // by Field::initial
-  std::deque<vector<Field>> fields_;   // by kind
+  map<string_view, Node> nodes_;      // by Field::initial
+  std::deque<vector<Field>> fields_;  // by kind
   vector<Kind> scenes_, sweeps_;
 };
 

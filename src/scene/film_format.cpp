@@ -1,8 +1,5 @@
 #include "scene/film_format.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 
 namespace carom {
@@ -34,7 +31,7 @@ bool keeps_rate(FilmFormat format, double fps) {
 
 double gif_rate(double fps) {
   if (keeps_rate(FilmFormat::gif, fps)) return fps;
-  return 100 / clamp(std::ceil(100 / fps), least_hundredths, most_hundredths);
+  return 100 / clamp(ceil(100 / fps), least_hundredths, most_hundredths);
 }
 
 // Measured with ffmpeg 5.1, libx264 164 and libwebp 1.2.4, 2 or 3 pictures each.

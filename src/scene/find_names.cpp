@@ -1,8 +1,6 @@
 // Names of things in a scene file to their numbers.
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "scene/decode.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -22,14 +20,14 @@ Entity members_of(const Inventory& inventory, const string& family) {
 
 optional<Inventory::Range> find_range(const Node& name, const Inventory& inventory, Sought sought,
                                       Diagnostics& diagnostics) {
-  if (name.bad || !name.is(Node::Kind::scalar)) return nullopt;
+  if (name.bad || !name.is_scalar()) return nullopt;
   if (const auto it = inventory.names.find(name.text); it != inventory.names.end()) return it->second;
   // A group's member such as gas.3.
   const size_t dot = name.text.rfind('.');
   if (dot != string::npos) {
     const string group = name.text.substr(0, dot);
     const auto it =
-        std::ranges::find_if(inventory.bodies, [&](const BodyEntry& b) { return b.group && b.key->text == group; });
+        ranges::find_if(inventory.bodies, [&](const BodyEntry& b) { return b.group && b.key->text == group; });
     const optional<uint64_t> member = parse_index(string_view(name.text).substr(dot + 1));
 
     if (it != inventory.bodies.end()) {
@@ -106,7 +104,7 @@ optional<vector<Entity>> find_bodies(const Node* on, const Inventory& inventory,
     for (Entity i = 0; i < range->count; ++i) bodies.push_back(range->first + i);
   }
 
-  std::ranges::sort(bodies);
+  ranges::sort(bodies);
   bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   return good && !bodies.empty() ? optional(std::move(bodies)) : nullopt;
 }

@@ -1,6 +1,5 @@
 #pragma once
 // What a scene with `start` takes from a former run.
-#include <stdexcept>
 
 #include "physics/state.h"
 #include "std.h"
@@ -23,9 +22,9 @@ struct FormerState {
 };
 
 /// A former run has no such state. The text is the fault, without the name of the run.
-struct StartError : std::runtime_error {
+struct StartError : runtime_error {
   StartError(const string& fault, string the_remedy, bool is_of_time = false)
-      : std::runtime_error(fault), remedy(std::move(the_remedy)), of_time(is_of_time) {}
+      : runtime_error(fault), remedy(std::move(the_remedy)), of_time(is_of_time) {}
   string remedy;  // lines
   bool of_time;   // the run is usable, but not at this time
 };

@@ -4,12 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <set>
-#include <stdexcept>
 
 #include "scene/check.h"
 #include "scene/output_kinds.h"
@@ -103,7 +100,7 @@ optional<Form> Forms::drawn(const Volume& volume, const Node& mesh) {
 optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
   const vector<Vec3>* vertices = points(mesh);
   if (vertices == nullptr) return nullopt;
-  const auto key = std::pair(path_of(mesh), shape);
+  const auto key = pair(path_of(mesh), shape);
   if (const auto known = fits_.find(key); known != fits_.end()) return known->second;
 
   optional<Fit> tight;
@@ -138,12 +135,12 @@ const vector<Vec3>* Forms::points(const Node& mesh) {
   vector<Vec3> vertices;
   try {
     vertices = options_.mesh_points(path);
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     return refuse(error.what());
   }
 
   if (vertices.empty()) return refuse("it has no vertices");
-  if (!std::ranges::all_of(vertices, [](const Vec3& v) { return (v * 4).allFinite(); })) {
+  if (!all_of(vertices, [](const Vec3& v) { return (v * 4).allFinite(); })) {
     return refuse("it has a vertex that is not finite");
   }
 
@@ -160,7 +157,7 @@ string Forms::path_of(const Node& mesh) const {
 
 vector<MeshFile> Forms::files(const string& film) const {
   vector<MeshFile> out;
-  std::set<string> used;
+  set<string> used;
   for (const string& path : order_) {
     const std::filesystem::path name = std::filesystem::path(path).filename();
     const auto use = own_colors_.find(path);

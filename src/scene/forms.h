@@ -1,8 +1,5 @@
 #pragma once
 // The volumes of bodies and obstacles. A mesh is drawn in place of a volume, or a volume is fitted around it.
-#include <map>
-#include <set>
-#include <utility>
 
 #include "geometry/fit.h"
 #include "physics/volume.h"
@@ -46,10 +43,10 @@ class Forms {
   const LoadOptions& options_;
   Diagnostics& diagnostics_;
   /// By path. Empty: unusable.
-  std::map<string, vector<Vec3>> points_;
-  std::map<std::pair<string, Shape>, optional<Fit>> fits_;  // none: unusable
-  vector<string> order_;                                    // paths
-  std::map<string, Place> own_colors_;                      // first uses of meshes with the file's colours
+  map<string, vector<Vec3>> points_;
+  map<pair<string, Shape>, optional<Fit>> fits_;  // none: unusable
+  vector<string> order_;                          // paths
+  map<string, Place> own_colors_;                 // first uses of meshes with the file's colours
 };
 
 }  // namespace carom

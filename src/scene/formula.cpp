@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 
 #include "numerics/degrees.h"
@@ -58,7 +56,7 @@ double raised(Numbers x) {
 }
 
 double root_of(Numbers x) {
-  return x[0] < 0 ? refuse(fmt::format("the root of {}", x[0]), "expected a number of at least 0") : std::sqrt(x[0]);
+  return x[0] < 0 ? refuse(fmt::format("the root of {}", x[0]), "expected a number of at least 0") : sqrt(x[0]);
 }
 
 double tangent(Numbers x) {
@@ -76,9 +74,9 @@ double ratio(double value, string_view name) {
 constexpr Operation functions[] = {
     {"sqrt", 1, root_of},
     {"abs", 1, [](Numbers x) { return std::abs(x[0]); }},
-    {"min", 0, [](Numbers x) { return *std::ranges::min_element(x); }},
-    {"max", 0, [](Numbers x) { return *std::ranges::max_element(x); }},
-    {"floor", 1, [](Numbers x) { return std::floor(x[0]); }},
+    {"min", 0, [](Numbers x) { return *ranges::min_element(x); }},
+    {"max", 0, [](Numbers x) { return *ranges::max_element(x); }},
+    {"floor", 1, [](Numbers x) { return floor(x[0]); }},
     {"sin", 1, [](Numbers x) { return sin_cos_degrees(x[0]).sin; }},
     {"cos", 1, [](Numbers x) { return sin_cos_degrees(x[0]).cos; }},
     {"tan", 1, tangent},
@@ -99,7 +97,7 @@ constexpr Operation operators[] = {
 constexpr Operation opposite = {"-", 1, [](Numbers x) { return -x[0]; }};
 
 const Operation* find(span<const Operation> all, string_view name) {
-  const auto found = std::ranges::find(all, name, &Operation::name);
+  const auto found = ranges::find(all, name, &Operation::name);
   return found == all.end() ? nullptr : &*found;
 }
 
@@ -250,10 +248,10 @@ class Reader {
     if (name == "pi") return steps.push_back({token.at, token.length, std::numbers::pi});
 
     const string_view plain = name.starts_with("let.") ? name.substr(4) : name;
-    const auto found = std::ranges::find(names_, plain);
+    const auto found = ranges::find(names_, plain);
     if (found == names_.end()) unknown(token, plain);
     const auto index = size_t(found - names_.begin());
-    if (std::ranges::find(used, index) == used.end()) used.push_back(index);
+    if (!contains(used, index)) used.push_back(index);
     steps.push_back({token.at, token.length, 0, index});
   }
 
@@ -322,7 +320,7 @@ Formula::Formula(string_view text, span<const string> names, string_view hint) {
 }
 
 FormulaError Formula::at_name(size_t name, string message, string remedy) const {
-  const Step& step = *std::ranges::find(steps_, optional(name), &Step::name);
+  const Step& step = *ranges::find(steps_, optional(name), &Step::name);
   return {step.at, step.length, std::move(message), std::move(remedy)};
 }
 
@@ -337,7 +335,7 @@ double Formula::value(span<const double> values) const {
     const size_t first = stack.size() - step.arguments;
     try {
       const double result = step.operation->value(span(stack).subspan(first));
-      if (!std::isfinite(result))
+      if (!isfinite(result))
         refuse(fmt::format("this {} makes a number too large for a double", step.operation->noun),
                "the largest is about 1.8e308");
 

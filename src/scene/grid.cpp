@@ -3,9 +3,6 @@
 // Cells are chains in one array of buckets, so space is unbounded and memory is proportional to the members.
 #include "scene/grid.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/touch.h"
 #include "numerics/prefetch.h"
 #include "numerics/whole.h"
@@ -66,7 +63,7 @@ void BodyGrid::insert(const Member& member) {
   int exponent = 0;
   std::frexp(2 * member.radius, &exponent);
   const auto index = uint32_t(members_.size());
-  auto level = std::ranges::find_if(levels_, [&](const Level& l) { return l.exponent == exponent; });
+  auto level = ranges::find_if(levels_, [&](const Level& l) { return l.exponent == exponent; });
   if (level == levels_.end()) level = levels_.insert(level, {exponent, 2 * member.radius, 0, {}});
   level->largest = max(level->largest, 2 * member.radius);
   level->members.push_back(index);
@@ -81,7 +78,7 @@ optional<BodyGrid::Overlap> BodyGrid::overlap_with(const Member& member, const M
   const double squared = dot(d, d);
   if (squared >= sum * sum) return nullopt;
   const double depth = is_ball(member.entity) && is_ball(body.entity)
-                           ? sum - std::sqrt(squared)
+                           ? sum - sqrt(squared)
                            : -touch(*world_, body.entity, body.center, member.entity, member.center).gap;
   if (depth <= touch_tolerance(relative, min(member.radius, body.radius), member.center, body.center)) {
     return nullopt;
@@ -180,7 +177,7 @@ double ball_depth(const Vec3& center, double radius, const Wall& wall) {
   const double across = max(0.0, std::fabs(dot(d, wall.right)) - wall.half_width);
   const double along = max(0.0, std::fabs(dot(d, wall.up)) - wall.half_height);
   const double away = dot(d, wall.normal);
-  return radius - std::sqrt(across * across + along * along + away * away);
+  return radius - sqrt(across * across + along * along + away * away);
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "scene/resolve.h"
 #include "std.h"
 #include "yaml/values.h"

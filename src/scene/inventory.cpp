@@ -60,11 +60,11 @@ class Census {
   bool claim_thing(const Key& key, const Node& node) {
     claim(key);
     if (key.text.ends_with(".0")) claim({string(family_of(key.text)), key.place});
-    return !node.is(Node::Kind::map) || node.find_key("repeat") == nullptr;
+    return !node.is_map() || node.find_key("repeat") == nullptr;
   }
 
   void bodies(const Node& node, const Kind& kind) {
-    if (!node.is(Node::Kind::map)) return;
+    if (!node.is_map()) return;
     for (size_t i = 0; i < node.keys.size(); ++i) {
       if (!claim_thing(node.keys[i], node.items[i])) {
         empty_.push_back({&node.keys[i], inventory_.bodies.size(), true});
@@ -77,7 +77,7 @@ class Census {
   }
 
   void fixed(const Node& node, const Kind& kind) {
-    if (!node.is(Node::Kind::map)) return;
+    if (!node.is_map()) return;
     for (size_t i = 0; i < node.keys.size(); ++i) add_fixed(node.keys[i], node.items[i], kind);
   }
 
@@ -92,7 +92,7 @@ class Census {
   }
 
   void add_strings(const Node& node) {
-    if (!node.is(Node::Kind::map)) return;
+    if (!node.is_map()) return;
     const Kind& kind = kind_named("string");
     for (size_t i = 0; i < node.keys.size(); ++i) {
       if (claim_thing(node.keys[i], node.items[i]))
@@ -108,7 +108,7 @@ class Census {
     inventory_.fits = false;
     const bool by_group = most->group;
     const View& view = most->view;
-    const string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : std::to_string(total);
+    const string figure = total > most_bodies ? fmt::format("more than {}", most_bodies) : to_string(total);
     diagnostics_.add(by_group ? view.place("count") : most->key->place,
                      fmt::format("the scene has {} bodies; the limit is {}", figure, limit),
                      fmt::format("expected {}{}", by_group ? "a smaller `count`" : "fewer",

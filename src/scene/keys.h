@@ -2,7 +2,6 @@
 // The keys of bodies, groups, fixed things, pairs, forces and the camera, with their defaults. fields.cpp joins each to
 // its row. Decoding fills these structs, and makes World, State and Roster from them. An optional member is empty if
 // the file gives no value, or a wrong one. A Node is a name or a file together with its place, for messages about it.
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "physics/attractor.h"
@@ -77,9 +76,9 @@ struct GroupKeys {
 
 /// A window of time in which a fixed thing moves.
 struct MotionKeys {
-  double from = 0;                                    // s
-  double until = numeric_limits<double>::infinity();  // s
-  optional<Vec3> velocity;                            // m/s
+  double from = 0;          // s
+  double until = infinity;  // s
+  optional<Vec3> velocity;  // m/s
 };
 
 /// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
@@ -139,10 +138,10 @@ struct ForceKeys {
   optional<Drag> drag;
   optional<Spring> spring;
   optional<Attractor> attractor;
-  const Node* on = nullptr;                           // names; null: all bodies
-  double from = 0;                                    // s
-  double until = numeric_limits<double>::infinity();  // s
-  bool visible = true;                                // whether its springs are drawn
+  const Node* on = nullptr;  // names; null: all bodies
+  double from = 0;           // s
+  double until = infinity;   // s
+  bool visible = true;       // whether its springs are drawn
 };
 
 /// The side of a plane to which its normal points.

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <new>
 
 #include "scene/check.h"
@@ -72,8 +71,8 @@ struct SceneFile::Impl {
     }
 
     if (!tree) stop_if_wrong(parsing, options);
-    if (!tree->is(Node::Kind::map)) {
-      parsing.add(tree->place, tree->is(Node::Kind::null) ? "this file holds no scene" : "this is not a scene",
+    if (!tree->is_map()) {
+      parsing.add(tree->place, tree->is_null() ? "this file holds no scene" : "this is not a scene",
                   "expected a map of keys, such as `scene: 1`");
       stop_if_wrong(parsing, options);
     }
@@ -151,9 +150,9 @@ struct SceneFile::Impl {
     vector<EmptyFamily> families;
     for (const Field& field : kind_named("scene").fields) {
       const Node* things = field.type == Type::named ? tree.find(field.key) : nullptr;
-      if (things == nullptr || !things->is(Node::Kind::map) || !find_field(*field.held, "repeat")) continue;
+      if (things == nullptr || !things->is_map() || !find_field(*field.held, "repeat")) continue;
       for (size_t i = 0; i < things->keys.size(); ++i)
-        if (things->items[i].is(Node::Kind::map) && things->items[i].find_key("repeat") != nullptr)
+        if (things->items[i].is_map() && things->items[i].find_key("repeat") != nullptr)
           families.push_back({field.key, things->keys[i].text});
     }
     return families;
@@ -161,12 +160,12 @@ struct SceneFile::Impl {
 
   /// Takes the measures of the file, which name things of the scene. The whole scene must be decoded before.
   void take_measures(const Node& tree, Scene& scene, Diagnostics& diagnostics) const {
-    if (const Node* let = tree.find("let"); let != nullptr && let->is(Node::Kind::map))
+    if (const Node* let = tree.find("let"); let != nullptr && let->is_map())
       for (size_t i = 0; i < let->items.size(); ++i)
         if (const auto number = parse_number(let->items[i].text)) scene.measures.numbers[let->keys[i].text] = *number;
 
     const Node* measures = tree.find("measures");
-    if (measures == nullptr || !measures->is(Node::Kind::map)) return;
+    if (measures == nullptr || !measures->is_map()) return;
     for (size_t i = 0; i < measures->items.size(); ++i)
       if (!measures->items[i].bad) scene.measures.own.push_back({measures->keys[i].text, measures->items[i].text});
 

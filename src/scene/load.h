@@ -1,6 +1,5 @@
 #pragma once
 // YAML to a checked Scene, or errors that point at the character.
-#include <stdexcept>
 
 #include "scene/load_options.h"
 #include "scene/scene.h"
@@ -11,11 +10,11 @@ namespace carom {
 
 /// All errors of a scene file, as text for a terminal.
 /// Each has file:line:column, the line, a caret and the remedy.
-struct SceneError : std::runtime_error {
+struct SceneError : runtime_error {
   SceneError(const Diagnostics& diagnostics, bool color)
       : SceneError(diagnostics.text(color), diagnostics.count(), diagnostics.records()) {}
   SceneError(const string& text, size_t errors, vector<ErrorRecord> parts)
-      : std::runtime_error(text), count(errors), records(std::move(parts)) {}
+      : runtime_error(text), count(errors), records(std::move(parts)) {}
   size_t count;
   /// The errors in parts, as far as the text shows them.
   vector<ErrorRecord> records;

@@ -18,7 +18,7 @@ struct LoadOptions {
   bool color = false;  // colour in the texts of errors
 
   /// Reads the vertices of a mesh file, in the file's own units.
-  /// Throws std::runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
+  /// Throws runtime_error with a text that describes the fault of the file. Unset: scenes with meshes are refused.
   function<vector<Vec3>(const string& path)> mesh_points;
   /// Reads the state of a run's bodies. `folder`: relative to the working folder. `at`: s of the run; none: its end.
   /// Throws StartError. Unset: scenes with `start` are refused.

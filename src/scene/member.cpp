@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "std.h"
 #include "yaml/value_json.h"
 #include "yaml/values.h"
@@ -79,7 +77,7 @@ bool take(const View& view, const Field& field, Color& value) {
 
 bool take(const View& view, const Field& field, BodyColor& value) {
   const Node* node = view.find(field);
-  if (node == nullptr || !node->is(Node::Kind::map)) return put(as_color(node), value.plain);
+  if (node == nullptr || !node->is_map()) return put(as_color(node), value.plain);
   if (!node->bad) value.by = filled<Coloring>(view.part(field));
   return !node->bad;
 }
@@ -87,7 +85,7 @@ bool take(const View& view, const Field& field, BodyColor& value) {
 optional<size_t> choice_of(const View& view, const Field& field) {
   const optional<string> text = as_text(view.find(field));
   const vector<string_view> all = choices(field);
-  const auto at = text ? std::ranges::find(all, *text) : all.end();
+  const auto at = text ? ranges::find(all, *text) : all.end();
   return at == all.end() ? nullopt : optional(size_t(at - all.begin()));
 }
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "scene/member.h"
@@ -14,7 +13,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = numeric_limits<double>::infinity();
 constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range image_side{16, 16384};
@@ -257,7 +255,7 @@ constexpr Size named_sizes[] = {{1280, 720}, {1920, 1080}, {3840, 2160}, {1080, 
 
 optional<Size> size_named(string_view name) {
   const vector<string_view> names = parts_of(size_names);
-  const auto at = std::ranges::find(names, name);
+  const auto at = ranges::find(names, name);
   return at == names.end() ? nullopt : optional(named_sizes[at - names.begin()]);
 }
 
@@ -268,13 +266,13 @@ string FileSeries::name(int64_t number) const {
 bool FileSeries::has(string_view name) const {
   if (!names.empty()) {
     const vector<string_view> all = parts_of(names);
-    return std::ranges::find(all, name) != all.end();
+    return contains(all, name);
   }
   constexpr size_t digits = 5;
   if (!name.starts_with(stem) || !name.ends_with(ending) || name.size() < stem.size() + digits + ending.size())
     return false;
   const string_view number = name.substr(stem.size(), name.size() - stem.size() - ending.size());
-  return std::ranges::all_of(number, [](char c) { return c >= '0' && c <= '9'; });
+  return all_of(number, [](char c) { return c >= '0' && c <= '9'; });
 }
 
 Field OutputKind::field() const {
@@ -296,7 +294,7 @@ nlohmann::ordered_json OutputKind::settings(const Output& output) const {
 
 bool OutputKind::has_file(string_view file) const {
   const vector<string_view> all = parts_of(files);
-  return std::ranges::find(all, file) != all.end();
+  return contains(all, file);
 }
 
 span<const OutputKind> output_kinds() {
@@ -306,12 +304,12 @@ span<const OutputKind> output_kinds() {
 Output restricted(const Output& requested, const vector<string>& only) {
   Output output;
   for (const OutputKind& kind : all_kinds)
-    if (std::ranges::find(only, kind.name) != only.end()) kind.member.add(output, requested);
+    if (contains(only, kind.name)) kind.member.add(output, requested);
   return output;
 }
 
 bool holds_all(const Output& requested, const vector<string>& only) {
-  return std::ranges::all_of(only, [&](const string& name) {
+  return all_of(only, [&](const string& name) {
     return std::any_of(std::begin(all_kinds), std::end(all_kinds),
                        [&](const OutputKind& kind) { return kind.name == name && kind.asked(requested); });
   });

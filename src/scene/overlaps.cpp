@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
 #include <tuple>
 
 #include "physics/world.h"
@@ -39,8 +36,8 @@ class Overlaps {
   void add(const Found& found) { found_.push_back(found); }
 
   void report() {
-    std::ranges::stable_sort(
-        found_, [](const Found& a, const Found& b) { return std::tie(a.later, a.other) < std::tie(b.later, b.other); });
+    ranges::stable_sort(found_,
+                        [](const Found& a, const Found& b) { return tie(a.later, a.other) < tie(b.later, b.other); });
     if (found_.size() > most_shown_singly) return report_deepest();
     for (const Found& found : found_)
       diagnostics_.add(found.place, message(found),
@@ -64,8 +61,8 @@ class Overlaps {
   /// One error for all, at the deepest.
   void report_deepest() {
     const Found& deepest =
-        *std::ranges::max_element(found_, [](const Found& a, const Found& b) { return a.depth < b.depth; });
-    std::set<Entity> bodies;
+        *ranges::max_element(found_, [](const Found& a, const Found& b) { return a.depth < b.depth; });
+    set<Entity> bodies;
     for (const Found& found : found_)
       for (const Entity entity : {found.later, found.other})
         if (entity < world_.body_count()) bodies.insert(entity);
@@ -73,13 +70,13 @@ class Overlaps {
     string remedy = fmt::format("expected bodies apart, or just touching to {} of the smaller one", rounding_of_places);
     if (const double share = common_share(); share < 1) {
       // Rounded up to two digits, so that radii with these digits do.
-      const double digit = std::pow(10, std::floor(std::log10(share)) - 1);
-      remedy += fmt::format("\nradii smaller by {:.2g} of their size leave none", std::ceil(share / digit) * digit);
+      const double digit = pow(10, floor(std::log10(share)) - 1);
+      remedy += fmt::format("\nradii smaller by {:.2g} of their size leave none", ceil(share / digit) * digit);
     }
     diagnostics_.add(
         deepest.place,
         fmt::format("{}, the deepest of {} overlaps of {} bodies", message(deepest),
-                    some_left_out ? fmt::format("more than {}", max_overlaps_kept) : std::to_string(found_.size()),
+                    some_left_out ? fmt::format("more than {}", max_overlaps_kept) : to_string(found_.size()),
                     bodies.size()),
         remedy);
   }
@@ -118,7 +115,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
   };
 
   // Large bodies first, which makes the grid's searches cheap.
-  std::ranges::stable_sort(
+  ranges::stable_sort(
       singles, [&](const SingleBody& a, const SingleBody& b) { return world.radius[a.body] > world.radius[b.body]; });
   Overlaps found(scene, diagnostics);
 
@@ -128,7 +125,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
       vector<BodyGrid::Overlap> all{*first};
       if (!too_many) all = grid.all_overlaps(member(single.body), rounding_of_places);
 
-      std::set<Entity> others;
+      set<Entity> others;
       for (const BodyGrid::Overlap& overlap : all) {
         if (!others.insert(overlap.entity).second) continue;
         const bool is_later = single.body > overlap.entity;
@@ -151,8 +148,8 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
     members.push_back({obstacle.center, obstacle.volume.reach(), world.body_count() + surfaces + Entity(i)});
   }
 
-  std::ranges::stable_sort(members,
-                           [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
+  ranges::stable_sort(members,
+                      [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
   for (const BodyGrid::Member& obstacle : members) obstacles.insert(obstacle);
 
   for (const SingleBody& single : singles) {

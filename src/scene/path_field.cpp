@@ -2,8 +2,6 @@
 // scene is at hand.
 #include "scene/path_field.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -45,7 +43,7 @@ const Field* field_at(string_view path) {
 
 bool is_drawn(string_view path) {
   const vector<const Field*> fields = fields_along(path);
-  return std::ranges::any_of(fields, [](const Field* field) { return field->drawn; });
+  return any_of(fields, [](const Field* field) { return field->drawn; });
 }
 
 }  // namespace carom

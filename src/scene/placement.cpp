@@ -4,20 +4,17 @@
 // All random numbers come from one stream in a fixed order, so the placement is the same on every machine.
 #include "scene/placement.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "std.h"
 
 namespace carom {
 namespace {
 
-const double root3 = std::sqrt(3.0);
+const double root3 = sqrt(3.0);
 
 /// The number of whole steps of length `step` in `length`, tolerant of rounding: 0.3 holds three of 0.1.
 double steps_in(double length, double step) {
-  return max(0.0, std::floor(length / step * (1 + 1e-12)));
+  return max(0.0, floor(length / step * (1 + 1e-12)));
 }
 
 /// Sites for balls of diameter `spacing` in the box of edges `edge`. `spacing` is at least the balls' diameter.
@@ -59,7 +56,7 @@ struct Hexagonal {
   Hexagonal(const Vec3& e, double s) : edge(e), spacing(s) {
     // The room for the centres.
     const Vec3 room(max(0.0, e.x() - s), max(0.0, e.y() - s), max(0.0, e.z() - s));
-    layers = steps_in(room.y(), s * std::sqrt(2.0 / 3)) + 1;
+    layers = steps_in(room.y(), s * sqrt(2.0 / 3)) + 1;
     rows[0] = steps_in(room.z(), s * root3 / 2) + 1;
     rows[1] = room.z() * (1 + 1e-12) < s / (2 * root3) ? 0 : steps_in(room.z() - s / (2 * root3), s * root3 / 2) + 1;
     columns[0] = steps_in(room.x(), s) + 1;
@@ -71,8 +68,8 @@ struct Hexagonal {
   double capacity() const {
     double total = 0;
     for (int odd = 0; odd < 2; ++odd) {
-      const double of_kind = odd ? std::floor(layers / 2) : std::ceil(layers / 2);
-      const double unshifted = odd ? std::floor(rows[odd] / 2) : std::ceil(rows[odd] / 2);
+      const double of_kind = odd ? floor(layers / 2) : ceil(layers / 2);
+      const double unshifted = odd ? floor(rows[odd] / 2) : ceil(rows[odd] / 2);
       total += of_kind * (unshifted * columns[0] + (rows[odd] - unshifted) * columns[1]);
     }
     return total;
@@ -85,7 +82,7 @@ struct Hexagonal {
     const double in_z =
         max((rows[0] - 1) * spacing * root3 / 2,
             layers > 1 && rows[1] > 0 ? spacing / (2 * root3) + (rows[1] - 1) * spacing * root3 / 2 : 0.0);
-    const double in_y = (layers - 1) * spacing * std::sqrt(2.0 / 3);
+    const double in_y = (layers - 1) * spacing * sqrt(2.0 / 3);
     const Vec3 start((edge.x() - in_x) / 2, (edge.y() - in_y) / 2, (edge.z() - in_z) / 2);
 
     for (int64_t j = 0; j < int64_t(layers); ++j) {
@@ -94,7 +91,7 @@ struct Hexagonal {
         const int half = shifted(j, k);
 
         for (int64_t i = 0; i < int64_t(columns[half]); ++i) {
-          const Vec3 site((double(i) + 0.5 * half) * spacing, double(j) * spacing * std::sqrt(2.0 / 3),
+          const Vec3 site((double(i) + 0.5 * half) * spacing, double(j) * spacing * sqrt(2.0 / 3),
                           double(k) * spacing * root3 / 2 + (odd ? spacing / (2 * root3) : 0.0));
           if (!visit(Vec3(start + site))) return;
         }
@@ -195,7 +192,7 @@ class Placer {
       if (best.size() >= p_.count || s <= closest) return best;
       // With fewer free sites than balls, narrow by about the fourth root of the ratio.
       // The cube root, which the number of sites suggests, could overshoot.
-      const double shrink = std::sqrt(std::sqrt(max<double>(1, double(best.size())) / count));
+      const double shrink = sqrt(sqrt(max<double>(1, double(best.size())) / count));
       s = max(closest, s * clamp(shrink, 0.5, 0.98));
       if (Sites(edge_, s).capacity() > most_sites) return best;
     }

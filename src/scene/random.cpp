@@ -49,7 +49,7 @@ double Random::normal() {
     const double v = 2 * uniform() - 1;
     const double s = u * u + v * v;
     if (s >= 1 || s == 0) continue;
-    const double factor = std::sqrt(-2 * reproducible_log(s) / s);
+    const double factor = sqrt(-2 * reproducible_log(s) / s);
     spare_ = v * factor;
     has_spare_ = true;
     return u * factor;

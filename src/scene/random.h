@@ -1,7 +1,6 @@
 #pragma once
 // Random numbers that are the same on every machine. They use only integers, + - * / and sqrt.
 // The standard library's distributions differ between implementations, and glibc's log, sin and cos between processors.
-#include <cmath>
 
 #include "std.h"
 

@@ -2,8 +2,6 @@
 // How far its things lie, and how far its bodies go, is compared with the smallest size in it (physics/bounds.h).
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/bounds.h"
 #include "physics/world.h"
 #include "scene/decode.h"

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 
 #include "scene/check.h"
 #include "scene/colors.h"
@@ -22,7 +21,7 @@ namespace carom {
 namespace {
 
 /// Texts that replace the values of a View, by key. An empty text leaves the key out.
-using Overrides = std::map<string_view, string>;
+using Overrides = map<string_view, string>;
 
 string flow(const View& view, const Overrides& overrides = {}) {
   string out;
@@ -53,7 +52,7 @@ class Resolver {
 
     line("scene", "1");
     line("title", flow_text(*whole.find("title")));
-    line("seed", std::to_string(scene_.seed));
+    line("seed", to_string(scene_.seed));
     if (const Node* let = root_.find("let"); let != nullptr && !let->items.empty()) line("let", flow_text(*let));
     line("gravity", flow_text(*whole.find("gravity")));
     line("restitution", flow(scene_part(root_, "restitution")));
@@ -316,17 +315,17 @@ string in_quotes(string_view text) {
 }
 
 string flow_text(const Node& node) {
-  if (node.is(Node::Kind::scalar)) {
+  if (node.is_scalar()) {
     const bool plain = !node.quoted && (is_name(node.text) || parse_number(node.text));
     return plain ? node.text : in_quotes(node.text);
   }
   string out;
   for (size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) out += ", ";
-    if (node.is(Node::Kind::map)) out += node.keys[i].text + ": ";
+    if (node.is_map()) out += node.keys[i].text + ": ";
     out += flow_text(node.items[i]);
   }
-  return node.is(Node::Kind::map) ? "{" + out + "}" : "[" + out + "]";
+  return node.is_map() ? "{" + out + "}" : "[" + out + "]";
 }
 
 string resolved_text(const Node& root, const Inventory& inventory, const Scene& scene, const string& folder) {

@@ -1,5 +1,4 @@
 // Names of a group's members are composed on request. Stored names would cost memory for every body of a group.
-#include <algorithm>
 
 #include "scene/caption.h"
 #include "scene/engines.h"
@@ -30,7 +29,7 @@ const BodyRange& Roster::range_of(Entity body) const {
 string Roster::name(Entity e) const {
   if (!bodies.empty() && e < bodies.back().first + bodies.back().count) {
     const BodyRange& range = range_of(e);
-    return range.group ? range.name + "." + std::to_string(e - range.first) : range.name;
+    return range.group ? range.name + "." + to_string(e - range.first) : range.name;
   }
   const Entity body_count = bodies.empty() ? 0 : bodies.back().first + bodies.back().count;
   const size_t after_bodies = e - body_count;
@@ -40,12 +39,12 @@ string Roster::name(Entity e) const {
 bool may_stop(const Scene& scene) {
   const vector<WorldRegion>& regions = scene.world.regions;
   return scene.simulate.stop_at_rest || scene.simulate.stop_collisions ||
-         std::ranges::any_of(regions, [](const WorldRegion& region) { return region.stops; });
+         any_of(regions, [](const WorldRegion& region) { return region.stops; });
 }
 
 bool colors_by_collisions(const Scene& scene) {
   const vector<BodyRange>& bodies = scene.roster.bodies;
-  return std::ranges::any_of(
+  return any_of(
       bodies, [](const BodyRange& range) { return range.coloring && range.coloring->by == ColorQuantity::collisions; });
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 // The whole request of a scene file, checked and constant from here on. Types only; load.h reads files into them.
-#include <map>
 
 #include "numerics/vec3.h"
 #include "physics/state.h"
@@ -137,14 +136,14 @@ struct OwnMeasure {
 
 /// What the scene measures, and the numbers that measures may name.
 struct Measures {
-  vector<OwnMeasure> own;            // in the order of the file
-  std::map<string, double> numbers;  // of `let`
+  vector<OwnMeasure> own;       // in the order of the file
+  map<string, double> numbers;  // of `let`
 };
 
 /// Where values of the scene come from, if not from its file as numbers.
 struct MadeFrom {
   /// The texts of expressions in the file, by their paths (expand.h).
-  std::map<string, string> expressions{};
+  map<string, string> expressions{};
   optional<StartedFrom> start{};
   /// Sentences on the start that the author may not expect.
   vector<string> notes{};

@@ -17,7 +17,7 @@ namespace {
 class Flattener {
  public:
   void map(const string& path, const Node& node, const Kind& kind) {
-    if (!node.is(Node::Kind::map)) return leaf(path, node, {});
+    if (!node.is_map()) return leaf(path, node, {});
     for (size_t i = 0; i < node.items.size(); ++i) {
       const Field* field = find_field(kind, node.keys[i].text);
       const string below = path.empty() ? node.keys[i].text : path + "." + node.keys[i].text;
@@ -34,7 +34,7 @@ class Flattener {
   void value(const string& path, const Node& node, const Field& field) {
     const TypeFacts& facts = facts_of(field.type);
     const auto below = [&](string_view step) { return fmt::format("{}.{}", path, step); };
-    const bool is_map = node.is(Node::Kind::map), is_list = node.is(Node::Kind::sequence);
+    const bool is_map = node.is_map(), is_list = node.is_sequence();
 
     switch (facts.inside) {
       case Inside::map:
@@ -51,7 +51,7 @@ class Flattener {
 
       case Inside::list:
         if (!is_list) break;
-        for (size_t i = 0; i < node.items.size(); ++i) map(below(std::to_string(i)), node.items[i], *field.held);
+        for (size_t i = 0; i < node.items.size(); ++i) map(below(to_string(i)), node.items[i], *field.held);
         return;
 
       case Inside::numbers: {
@@ -75,18 +75,18 @@ class Flattener {
 }  // namespace
 
 string text_of_value(const Node& node) {
-  if (node.is(Node::Kind::scalar)) {
+  if (node.is_scalar()) {
     const auto number = node.quoted ? nullopt : parse_number(node.text);
     return number ? shortest(*number) : node.text;
   }
   string text;
   for (size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) text += ", ";
-    if (node.is(Node::Kind::map)) text += node.keys[i].text + ": ";
+    if (node.is_map()) text += node.keys[i].text + ": ";
     text += text_of_value(node.items[i]);
   }
-  if (node.is(Node::Kind::sequence)) return "[" + text + "]";
-  return node.is(Node::Kind::map) ? "{" + text + "}" : text;
+  if (node.is_sequence()) return "[" + text + "]";
+  return node.is_map() ? "{" + text + "}" : text;
 }
 
 vector<SceneValue> scene_values(const string& name, const string& text) {

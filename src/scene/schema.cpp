@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "scene/colors.h"
@@ -21,7 +19,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr double infinity = numeric_limits<double>::infinity();
 constexpr string_view name_pattern = "^[A-Za-z_][A-Za-z0-9_-]*$";
 // Members of a repeated thing, as a resolved scene has them.
 constexpr string_view member_pattern = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.(0|[1-9][0-9]*))?$)";
@@ -38,7 +35,7 @@ Json required(const vector<string_view>& keys) {
   return {{"required", keys}};
 }
 
-Json any_of(Json first, Json second) {
+Json either(Json first, Json second) {
   return {{"anyOf", Json::array({std::move(first), std::move(second)})}};
 }
 
@@ -142,7 +139,7 @@ Json settings_schema() {
 
 Json axis_schema(const Kind& range) {
   const Json values = {{"type", "array"}, {"items", {{"not", {{"type", "null"}}}}}, {"minItems", 1}};
-  return any_of(values, reference(range.name));
+  return either(values, reference(range.name));
 }
 
 /// A map from names in expressions to numbers.
@@ -156,7 +153,7 @@ Json repeat_schema() {
   Json indices = variables_schema(whole_schema({0, infinity}));
   indices["minProperties"] = 1;
   indices["maxProperties"] = 8;
-  return any_of(whole_schema({0, infinity}), indices);
+  return either(whole_schema({0, infinity}), indices);
 }
 
 Json choice_schema(const Field& field) {
@@ -167,7 +164,7 @@ Json choice_schema(const Field& field) {
 
 Json list_schema(const Field& field) {
   Json entry = reference(field.of);
-  if (!field.plain.empty()) entry = any_of({{"enum", parts_of(field.plain)}}, entry);
+  if (!field.plain.empty()) entry = either({{"enum", parts_of(field.plain)}}, entry);
   Json schema = {{"type", "array"}, {"items", std::move(entry)}};
   if (field.held->needs_entries) schema["minItems"] = 1;
   return schema;
@@ -200,17 +197,17 @@ Json value_schema(const Field& field) {
       return schema;
     }
     case Type::pixels:
-      return any_of(numbers_schema(field), choice_schema(field));
+      return either(numbers_schema(field), choice_schema(field));
     case Type::point_or_name:
-      return any_of(numbers_schema(field), text_schema(field));
+      return either(numbers_schema(field), text_schema(field));
 
     // Colours and names.
     case Type::color:
       return {{"allOf", Json::array({reference("color")})}};
     case Type::color_or_none:
-      return any_of(reference("color"), cancelled());
+      return either(reference("color"), cancelled());
     case Type::color_or_part:
-      return any_of(reference("color"), reference(field.of));
+      return either(reference("color"), reference(field.of));
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
@@ -222,9 +219,9 @@ Json value_schema(const Field& field) {
     // Maps, and lists of maps.
     case Type::part:
       if (field.plain.empty()) return {{"allOf", Json::array({reference(field.of)})}};
-      return any_of(reference(field.of), value_schema(*find_field(*field.held, field.plain)));
+      return either(reference(field.of), value_schema(*find_field(*field.held, field.plain)));
     case Type::part_or_flag:
-      return any_of({{"type", "boolean"}}, reference(field.of));
+      return either({{"type", "boolean"}}, reference(field.of));
     case Type::values:
       return variables_schema(number_schema(field.range));
     case Type::texts:
@@ -292,7 +289,7 @@ Json engine_rule(const Field& field, const Field* part = nullptr) {
     Json of_part = required({part->key});
     when["type"] = "object";
     if (part->plain == field.key)
-      when = any_of(when, {{"type", "string"}, {"not", {{"const", json_of_yaml(field.initial)}}}});
+      when = either(when, {{"type", "string"}, {"not", {{"const", json_of_yaml(field.initial)}}}});
     of_part.update(at(part->key, when));
     when = of_part;
   }
@@ -300,7 +297,7 @@ Json engine_rule(const Field& field, const Field* part = nullptr) {
   const vector<string_view> engines = parts_of(field.engines);
   const Field& engine = *find_field(kind_named("simulate"), "engine");
   Json then = at(engine.key, {{"enum", engines}});
-  if (std::ranges::find(engines, engine.initial) == engines.end()) then.update(required({engine.key}));
+  if (!contains(engines, engine.initial)) then.update(required({engine.key}));
   return {{"if", when}, {"then", then}};
 }
 
@@ -327,7 +324,7 @@ void add_beneath_rules(const Field& field, Json& rules) {
     const Json absent = {{"const", false}};
     Json given = required({own.key});
     given["type"] = "object";
-    rules.push_back({{"if", when}, {"then", at(field.key, any_of(absent, given))}});
+    rules.push_back({{"if", when}, {"then", at(field.key, either(absent, given))}});
   }
 }
 
@@ -445,7 +442,7 @@ void add_part_rules(const Kind& owner, const Field& field, const function<Json(J
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));
-    rules.push_back({{"if", any_of(has_default(kind, need), whole)}, {"else", each(required({field.key}))}});
+    rules.push_back({{"if", either(has_default(kind, need), whole)}, {"else", each(required({field.key}))}});
   }
 }
 
@@ -468,7 +465,7 @@ Json root_rules(const Kind& root) {
 void collect(const Kind& kind, vector<const Kind*>& found) {
   for (const Field& field : kind.fields) {
     const Kind* held = field.held;
-    if (held == nullptr || std::ranges::find(found, held) != found.end()) continue;
+    if (held == nullptr || contains(found, held)) continue;
     found.push_back(held);
     collect(*held, found);
   }

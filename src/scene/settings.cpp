@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "scene/check.h"
 #include "scene/fields.h"
 #include "scene/view.h"
@@ -85,9 +82,9 @@ class Walk {
 
   /// A step to a key of a map of kind_.
   bool into_key(const Step& step, bool last) {
-    if (!node_->is(Node::Kind::map)) {
+    if (!node_->is_map()) {
       // A list is not a map, so the step fails. A flag or an absent value is replaced by a map.
-      if (node_->is(Node::Kind::sequence))
+      if (node_->is_sequence())
         return refuse(step, fmt::format("{} is a list", in_backticks(before_)), "expected a map of keys");
       const Place place = node_->place;
       *node_ = Node{};
@@ -133,8 +130,8 @@ class Walk {
       if (other.with.empty()) continue;
       vector<string_view> companions = parts_of(other.spared_by);
       companions.push_back(other.with);
-      const bool stood = std::ranges::find(companions, key) != companions.end();
-      const bool stays = std::ranges::any_of(companions, [&](string_view companion) {
+      const bool stood = contains(companions, key);
+      const bool stays = any_of(companions, [&](string_view companion) {
         return companion == by.key || node_->find_key(companion) != nullptr;
       });
       if (stood && !stays) take_out(other.key);
@@ -170,7 +167,7 @@ class Walk {
 
       case Inside::values:
       case Inside::counts: {
-        Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
+        Node* child = node_->is_map() ? node_->find(step.text) : nullptr;
         if (child == nullptr)
           return refuse_name(step, fmt::format("{} has no {}", in_backticks(before_), in_backticks(step.text)));
         node_ = child;
@@ -184,7 +181,7 @@ class Walk {
 
   bool into_list(const Step& step) {
     const optional<uint64_t> i = parse_index(step.text);
-    if (!i || *i >= node_->items.size() || !node_->is(Node::Kind::sequence)) {
+    if (!i || *i >= node_->items.size() || !node_->is_sequence()) {
       const size_t count = node_->items.size();
       return refuse(step, fmt::format("{} has no entry {}", in_backticks(before_), in_backticks(step.text)),
                     count == 0   ? fmt::format("it has none: set all of {}", in_backticks(before_))
@@ -207,7 +204,7 @@ class Walk {
 
   /// Members stand in a file as `row.0`, two steps of the path. The first of them is kept in family_ until the second.
   Node* member(const Step& step) {
-    if (!node_->is(Node::Kind::map)) return nullptr;
+    if (!node_->is_map()) return nullptr;
     if (!family_.empty()) {
       const string name = family_ + "." + step.text;
       family_.clear();
@@ -219,7 +216,7 @@ class Walk {
 
   bool into_named(const Step& step) {
     const Kind& kind = *field_->held;
-    Node* child = node_->is(Node::Kind::map) ? node_->find(step.text) : nullptr;
+    Node* child = node_->is_map() ? node_->find(step.text) : nullptr;
     const string family = family_;
     if (child == nullptr) child = member(step);
 
@@ -242,7 +239,7 @@ class Walk {
   bool into_numbers(const Step& step, const vector<string_view>& names) {
     for (size_t i = 0; i < names.size(); ++i) {
       if (step.text != names[i]) continue;
-      if (!node_->is(Node::Kind::sequence) || node_->items.size() != names.size()) {
+      if (!node_->is_sequence() || node_->items.size() != names.size()) {
         return refuse(step, fmt::format("{} has no numbers yet", in_backticks(before_)),
                       fmt::format("set all of {}", in_backticks(before_)));
       }
@@ -265,7 +262,7 @@ class Walk {
   /// The first map that a step changed, the key that it got, and those that this key replaced. Null: no step did.
   Node* changed_ = nullptr;
   string new_key_;
-  vector<std::pair<Key, Node>> replaced_;
+  vector<pair<Key, Node>> replaced_;
   Diagnostics& diagnostics_;
 };
 
@@ -295,7 +292,7 @@ void apply_setting(Node& root, vector<Source>& sources, uint32_t index, Diagnost
   }
 
   if (!value) return;
-  if (value->is(Node::Kind::null)) {
+  if (value->is_null()) {
     diagnostics.add(value_place, "there is no value", "expected path=value");
     return;
   }

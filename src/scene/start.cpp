@@ -4,9 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <unordered_map>
-#include <utility>
 
 #include "scene/check.h"
 #include "scene/decode.h"
@@ -94,7 +92,7 @@ class Starter {
                        fmt::format("at {} s of the run {} {} gone: merged into another body, or removed by a region",
                                    time(), names_text(gone_), gone_.size() == 1 ? "is" : "are"),
                        "expected a scene without bodies that are gone, or an earlier `at`");
-    else if (std::ranges::find(used_, true) == used_.end())
+    else if (!contains(used_, true))
       diagnostics_.add(place_, "the run has none of the bodies of this scene",
                        former_.names.empty() ? "expected a run with bodies"
                                              : "bodies match by their names; the run has " + names_text(former_.names));
@@ -106,10 +104,9 @@ class Starter {
   template <typename Work>
   void each(string_view name, const Work& work) {
     Node* map = root_.find(name);
-    if (map == nullptr || !map->is(Node::Kind::map)) return;
+    if (map == nullptr || !map->is_map()) return;
     for (size_t i = 0; i < map->keys.size(); ++i)
-      if (map->items[i].is(Node::Kind::map) && map->items[i].find_key("repeat") == nullptr)
-        work(map->keys[i], map->items[i]);
+      if (map->items[i].is_map() && map->items[i].find_key("repeat") == nullptr) work(map->keys[i], map->items[i]);
   }
 
   string time() const { return shortest(former_.state.time); }
@@ -181,7 +178,7 @@ class Starter {
 
     if (members.items.size() < count) return;
     // The ball may be that of the defaults.
-    if (const Node* ball = view.given("ball"); ball != nullptr && ball->is(Node::Kind::map)) {
+    if (const Node* ball = view.given("ball"); ball != nullptr && ball->is_map()) {
       const View each_ball = member_view(root_, view);
       replaces(each_ball, {"velocity", "impulse"}, key.text);
       Node own = *ball;
@@ -254,7 +251,7 @@ class Starter {
 
   bool has_windows() const {
     const auto has = [](const Node& node, std::initializer_list<string_view> keys) {
-      return std::ranges::any_of(keys, [&](string_view key) { return node.find_key(key) != nullptr; });
+      return any_of(keys, [&](string_view key) { return node.find_key(key) != nullptr; });
     };
     if (const Node* forces = root_.find("forces"))
       for (const Node& force : forces->items)
@@ -284,7 +281,7 @@ class Starter {
 void apply_start(Node& root, const string& folder, const LoadOptions& options, MadeFrom& made_from,
                  Diagnostics& diagnostics) {
   const Node* node = root.find("start");
-  if (node == nullptr || node->bad || !node->is(Node::Kind::map)) return;
+  if (node == nullptr || node->bad || !node->is_map()) return;
 
   const View view = scene_part(root, "start");
   const auto keys = filled<StartKeys>(view);

@@ -49,7 +49,7 @@ SweepRun Sweep::run(size_t number) const {
 
   if (seeds > 0) {
     // Without repeats the paths contain no seed.
-    const string of_run = std::to_string(first_seed.value_or(0) + number % repeats);
+    const string of_run = to_string(first_seed.value_or(0) + number % repeats);
     run.values.back() = of_run;
     run.settings.push_back({"seed=" + of_run, file});
   }

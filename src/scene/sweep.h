@@ -14,7 +14,7 @@ struct SweepValue {
 
 /// One value for each of several paths (indices into Sweep::paths).
 struct SweepCase {
-  vector<std::pair<uint32_t, SweepValue>> values;
+  vector<pair<uint32_t, SweepValue>> values;
 };
 
 /// What varies independently: a path of a grid, the paths of a zip, a list, or samples of ranges.

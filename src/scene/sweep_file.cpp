@@ -1,10 +1,6 @@
 // A sweep file's tree, checked against the table of fields, to a Sweep.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
-#include <map>
-
 #include "scene/check.h"
 #include "scene/grid_text.h"
 #include "scene/path_field.h"
@@ -91,7 +87,7 @@ class SweepReader {
     if (last == string_view::npos) {
       column_ += count_characters(between);
     } else {
-      line_ += size_t(std::ranges::count(between, '\n'));
+      line_ += size_t(ranges::count(between, '\n'));
       column_ = 1 + count_characters(between.substr(last + 1));
     }
     counted_ = offset;
@@ -99,9 +95,7 @@ class SweepReader {
   }
 
   /// As many as there are paths: it is none of them.
-  size_t index_of(string_view path) const {
-    return size_t(std::ranges::find(sweep_.paths, path) - sweep_.paths.begin());
-  }
+  size_t index_of(string_view path) const { return size_t(ranges::find(sweep_.paths, path) - sweep_.paths.begin()); }
 
   uint32_t path(const string& text) {
     const size_t index = index_of(text);
@@ -126,7 +120,7 @@ class SweepReader {
 
   /// Reads the axes of one block.
   void block(const Node& node) {
-    if (node.bad || !node.is(Node::Kind::map)) return;
+    if (node.bad || !node.is_map()) return;
     SweepBlock block;
     uint64_t runs = 1;
     taken_.clear();
@@ -150,7 +144,7 @@ class SweepReader {
     }
     if (const Node* list = usable(node.find("list"))) {
       Axis axis{Axis::Kind::list, {}};
-      std::map<string, const Key*> keys;
+      map<string, const Key*> keys;
       for (const Node& item : list->items) axis.cases.push_back(one_case(item));
       for (const Node& item : list->items)
         for (const Key& key : item.keys) keys.emplace(key.text, &key);
@@ -219,7 +213,7 @@ class SweepReader {
     const bool latin = node.find("latin") != nullptr;
     const char* key = latin ? "latin" : "random";
     const Node* number = usable(node.find(key));
-    if (number == nullptr || !over.is(Node::Kind::map)) return axis;
+    if (number == nullptr || !over.is_map()) return axis;
 
     const uint64_t count = parse_whole(number->text).value_or(1);
     if (over.keys.size() * count > most_values) {
@@ -259,7 +253,7 @@ class SweepReader {
 
   /// None: it is wrong, which is reported.
   optional<SampledRange> span(const Key& key, const Node& node) {
-    if (node.bad || !node.is(Node::Kind::map)) return nullopt;
+    if (node.bad || !node.is_map()) return nullopt;
     const auto given = ends(node);
     if (!given) return nullopt;
 
@@ -305,18 +299,18 @@ class SweepReader {
   }
 
   /// None: an end is absent or wrong, which is reported.
-  optional<std::pair<Decimal, Decimal>> ends(const Node& range) {
+  optional<pair<Decimal, Decimal>> ends(const Node& range) {
     const Node *from = range.find("from"), *to = range.find("to");
-    if (std::ranges::any_of(range.items, &Node::bad) || from == nullptr || to == nullptr) return nullopt;
+    if (any_of(range.items, &Node::bad) || from == nullptr || to == nullptr) return nullopt;
     const optional<Decimal> first = decimal(*from), last = decimal(*to);
-    return first && last ? optional(std::pair(*first, *last)) : nullopt;
+    return first && last ? optional(pair(*first, *last)) : nullopt;
   }
 
   /// The values of a list or a range.
   vector<SweepValue> values(const Key& key, const Node& node) {
     vector<SweepValue> out;
     if (node.bad) return out;
-    if (node.is(Node::Kind::sequence)) {
+    if (node.is_sequence()) {
       for (const Node& item : node.items) out.push_back({flow_text(item), where(item.place)});
       return out;
     }
@@ -385,7 +379,7 @@ class SweepReader {
         left = false;
       }
       if (left) block.kept.push_back(k);
-      std::ranges::fill(values, nullptr);
+      ranges::fill(values, nullptr);
     }
 
     for (size_t s = 0; s < skipped.size(); ++s) {
@@ -400,7 +394,7 @@ class SweepReader {
   }
 
   bool matches(const Node& entry, const vector<const SweepValue*>& values) const {
-    if (!entry.is(Node::Kind::map)) return false;
+    if (!entry.is_map()) return false;
     for (size_t i = 0; i < entry.keys.size(); ++i) {
       const size_t index = index_of(entry.keys[i].text);
       const SweepValue* value = index < values.size() ? values[index] : nullptr;
@@ -408,9 +402,8 @@ class SweepReader {
 
       const Node& wanted = entry.items[i];
       const bool same = same_value(flow_text(wanted), value->text);
-      const bool any = wanted.is(Node::Kind::sequence) && std::ranges::any_of(wanted.items, [&](const Node& one) {
-                         return same_value(flow_text(one), value->text);
-                       });
+      const bool any = wanted.is_sequence() &&
+                       any_of(wanted.items, [&](const Node& one) { return same_value(flow_text(one), value->text); });
       if (!same && !any) return false;
     }
     return true;
@@ -418,7 +411,7 @@ class SweepReader {
 
   void repeat() {
     const Node* node = usable(root_.find("repeat"));
-    const bool given = node != nullptr && node->is(Node::Kind::map);
+    const bool given = node != nullptr && node->is_map();
     if (!given && !options_.repeat) return;
 
     const View view(given ? node : nullptr, kind_named("repeat"), Place{});
@@ -438,7 +431,7 @@ class SweepReader {
 
   void compare() {
     const Node* node = usable(root_.find("compare"));
-    if (node == nullptr || !node->is(Node::Kind::map)) return;
+    if (node == nullptr || !node->is_map()) return;
 
     if (const Node* measures = usable(node->find("measures"))) {
       for (const Node& item : measures->items) sweep_.measures.push_back({item.text, where(item.place)});
@@ -460,8 +453,8 @@ class SweepReader {
   const SweepOptions& options_;
   Diagnostics& diagnostics_;
   Sweep sweep_;
-  uint64_t seed_ = 0;                   // of samples
-  std::map<string, const Key*> taken_;  // the paths of this block
+  uint64_t seed_ = 0;              // of samples
+  map<string, const Key*> taken_;  // the paths of this block
   // How far where() has counted lines and characters.
   mutable size_t counted_ = 0, line_ = 1, column_ = 1;
 };
@@ -476,8 +469,8 @@ Sweep read(vector<Source>& sources, Diagnostics& diagnostics, const SweepOptions
   if (check_text(sources[0], 0, diagnostics)) root = parse_document(sources, 0, 0, diagnostics);
 
   if (!root) stop_if_wrong(diagnostics, color);
-  if (!root->is(Node::Kind::map)) {
-    diagnostics.add(root->place, root->is(Node::Kind::null) ? "this file holds no sweep" : "this is not a sweep",
+  if (!root->is_map()) {
+    diagnostics.add(root->place, root->is_null() ? "this file holds no sweep" : "this is not a sweep",
                     "expected a map of keys, such as `sweep: 1`");
   } else if (root->find("sweep") == nullptr && root->find("scene") != nullptr) {
     diagnostics.add(root->find_key("scene")->place, "this is a scene, not a sweep",
@@ -519,7 +512,7 @@ bool is_sweep_file(const string& path) {
   optional<Node> root;
   if (read_source(path, sources[0], diagnostics) && check_text(sources[0], 0, diagnostics))
     root = parse_document(sources, 0, 0, diagnostics);
-  return root && root->is(Node::Kind::map) && root->find("sweep") != nullptr && root->find("scene") == nullptr;
+  return root && root->is_map() && root->find("sweep") != nullptr && root->find("scene") == nullptr;
 }
 
 }  // namespace carom

@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "scene/check.h"
 #include "scene/fields.h"
 #include "scene/scene_values.h"
@@ -33,7 +30,7 @@ class PathWalk {
 
   bool at_map() const {
     return view_ || (field_ != nullptr && (field_->type == Type::named || field_->type == Type::list)) ||
-           (node_ != nullptr && node_->is(Node::Kind::map));
+           (node_ != nullptr && node_->is_map());
   }
   const Node* node() const { return node_; }
 
@@ -52,7 +49,7 @@ class PathWalk {
                   suggest_key(step, view_->kind()));
     field_ = field;
     node_ = view_->find(*field);
-    const bool absent = node_ == nullptr || !node_->is(Node::Kind::map);
+    const bool absent = node_ == nullptr || !node_->is_map();
     if (holds_map(*field) && !(absent && field->type == Type::color_or_part)) return to_part(*field, absent);
     view_.reset();
     return node_ != nullptr || fail(fmt::format("{} has no value in this scene", in_backticks(step)));
@@ -60,7 +57,7 @@ class PathWalk {
 
   bool to_part(const Field& field, bool absent) {
     const Kind& kind = *field.held;
-    const bool needs = std::ranges::any_of(kind.fields, [](const Field& f) { return f.needed; });
+    const bool needs = any_of(kind.fields, [](const Field& f) { return f.needed; });
     const bool wanted = field.type == Type::part_or_flag ? view_->wants(field.key) : field.type == Type::part && !needs;
     if (absent && !wanted) return fail(fmt::format("this scene has no {}", in_backticks(field.key)));
     const View part = view_->part(field);
@@ -71,12 +68,11 @@ class PathWalk {
 
   bool into_value(string_view step) {
     if (field_->type == Type::named || field_->type == Type::list) return to_entry(step);
-    if ((field_->type == Type::values || field_->type == Type::texts) && node_->is(Node::Kind::map))
-      return to_number(step);
-    const bool numbers = node_->is(Node::Kind::sequence);
+    if ((field_->type == Type::values || field_->type == Type::texts) && node_->is_map()) return to_number(step);
+    const bool numbers = node_->is_sequence();
     for (const auto& names : {vector<string_view>{"x", "y", "z"}, {"width", "height"}}) {
       if (!numbers || names.size() != node_->items.size()) continue;
-      const auto at = std::ranges::find(names, step);
+      const auto at = ranges::find(names, step);
       if (at == names.end()) break;
       node_ = &node_->items[size_t(at - names.begin())];
       return true;
@@ -98,7 +94,7 @@ class PathWalk {
 
     if (field_->type == Type::named) {
       // Members stand in the tree as `row.0`, two steps of the path.
-      const string family = std::exchange(family_, {});
+      const string family = exchange(family_, {});
       const string name = family.empty() ? string(step) : fmt::format("{}.{}", family, step);
       entry = node_->find(name);
       if (entry == nullptr && !family.empty())

@@ -10,7 +10,7 @@ namespace carom {
 namespace {
 
 bool usable(const Node* node, Node::Kind kind) {
-  return node != nullptr && !node->bad && node->is(kind);
+  return node != nullptr && !node->bad && node->kind == kind;
 }
 
 }  // namespace
@@ -115,12 +115,12 @@ View View::part(const Field& field) const {
   const Key* at = own_ == nullptr ? nullptr : own_->find_key(field.key);
   const Node* beneath = field.held->beneath.empty() ? nullptr : given(field.held->beneath);
   return View(given(field), *field.held, at == nullptr ? where_ : at->place,
-              beneath != nullptr && beneath->is(Node::Kind::map) ? beneath : nullptr);
+              beneath != nullptr && beneath->is_map() ? beneath : nullptr);
 }
 
 bool View::wants(string_view key) const {
   const Node* node = given(key);
-  return node != nullptr && (node->is(Node::Kind::map) || as_flag(node).value_or(false));
+  return node != nullptr && (node->is_map() || as_flag(node).value_or(false));
 }
 
 Place View::place(string_view key) const {

@@ -14,10 +14,7 @@ class View {
  public:
   /// `own` null: an empty map. `defaults` null: no defaults. `where`: the place of the map's key, for errors about it.
   View(const Node* own, const Kind& kind, Place where, const Node* defaults = nullptr)
-      : own_(own != nullptr && own->is(Node::Kind::map) ? own : nullptr),
-        kind_(&kind),
-        where_(where),
-        defaults_(defaults) {}
+      : own_(own != nullptr && own->is_map() ? own : nullptr), kind_(&kind), where_(where), defaults_(defaults) {}
 
   /// The value in effect, or null. A key that excludes this one (Field::one_of) hides the layers below it.
   const Node* find(string_view key) const;

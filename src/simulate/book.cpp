@@ -12,9 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/contact_time.h"
 #include "physics/archive.h"
 #include "physics/impact.h"
@@ -269,7 +266,7 @@ void BookSimulator::find_crossings() {
 
 bool BookSimulator::rests() const {
   return world_.gravity.isZero(0) && (frames_ > 0 || world_.impulse.empty()) &&
-         std::ranges::all_of(v_, [](const Vec3& v) { return v.isZero(0); });
+         all_of(v_, [](const Vec3& v) { return v.isZero(0); });
 }
 
 void BookSimulator::end_at(double time, EndReason reason, uint32_t region) {

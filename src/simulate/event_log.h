@@ -1,6 +1,5 @@
 #pragma once
 // The record of a simulator: collisions, energy lost in contact, work of forces, extremes.
-#include <algorithm>
 
 #include "numerics/compensated.h"
 #include "physics/collision.h"

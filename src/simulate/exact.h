@@ -1,7 +1,6 @@
 #pragma once
 // The exact simulator. It goes from event to event along paths in closed form, or along a method's steps. See
 // exact_simulator.h.
-#include <limits>
 
 #include "physics/contact_quality.h"
 #include "physics/integrator.h"
@@ -21,7 +20,7 @@ struct ExactOptions {
   // The method for free flights without a closed form; except with dop853, for all flights that bend.
   Integrator integrator = Integrator::dop853;
   // s: with dop853 the longest step; steps of other methods end at its multiples.
-  double step = numeric_limits<double>::infinity();
+  double step = infinity;
   // Of dop853, as a share of a radius and of speeds. In islands it is never greater than the default.
   double step_error = exact_tolerance::step_error;
   // false: dop853 computes all flights that bend.

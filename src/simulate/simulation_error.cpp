@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -45,7 +42,7 @@ void fail_out_of_bounds(const Bounds& bounds, Entity body, double time, const Ve
   const string when = fmt::format("at t = {} s ", time);
   const double speed = v.norm();
 
-  if (!std::isfinite(speed))
+  if (!isfinite(speed))
     throw SimulationError(when, body, fmt::format("'s speed is no longer finite: {}", remedies.speed));
   if (speed > bounds.speed)
     throw SimulationError(when, body,

@@ -1,6 +1,5 @@
 #pragma once
 // Reasons why a run cannot continue.
-#include <stdexcept>
 
 #include "physics/bounds.h"
 #include "physics/entity.h"
@@ -9,9 +8,9 @@
 namespace carom {
 
 /// The run cannot continue: a limit is reached, or doubles cannot represent a number. The text is for the user.
-class SimulationError : public std::runtime_error {
+class SimulationError : public runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  using runtime_error::runtime_error;
   /// An error about a body, which simulators identify by number: "<before>body 3<after>".
   SimulationError(const string& before, Entity body, const string& after);
   /// An error about several things. after: the text after each of them.

@@ -1,7 +1,6 @@
 #pragma once
 // The one interface to all engines that carry a World forward in time. A run calls it for each output time, never for
 // each event.
-#include <limits>
 
 #include "physics/collision.h"
 #include "physics/contact_force.h"
@@ -23,7 +22,7 @@ struct Effort {
   uint64_t regions = 0;        // bodies that left their region, a part of the events
   // Steps of islands along paths with an error beyond rounding, which a smaller error of each step reduces.
   uint64_t inexact_steps = 0;
-  double next = numeric_limits<double>::infinity();  // s, time of the next event; infinite: there is none
+  double next = infinity;  // s, time of the next event; infinite: there is none
 };
 
 /// Carries a World forward from its initial State. Queries never change the motion.

@@ -5,11 +5,6 @@
 // for dependent rows is tried then.
 #include "solver/active_set.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -22,7 +17,6 @@ constexpr double dependent = 0x1p-43;
 constexpr double pulling = 8 * 0x1p-53;
 // A share of a row's scale: the rounding of the data, where residuals are exact.
 constexpr double refined_change = 4 * 0x1p-53;
-constexpr double infinite = numeric_limits<double>::infinity();
 
 /// Whether a bilateral row that is not active, which the active ones therefore determine, is off by no more than it may
 /// be. w: by how much its scaled value exceeds its target.
@@ -81,7 +75,7 @@ void DualActiveSet::rebuild(const ContactIsland& island, const vector<uint32_t>&
 /// Computes the motion that satisfies the active rows exactly, and their forces.
 void DualActiveSet::balance(const ContactIsland& island) {
   const size_t k = active_.size();
-  std::ranges::fill(step_, 0.0);
+  ranges::fill(step_, 0.0);
   for (size_t j = 0; j < k; ++j) {
     const ContactIsland::Row& r = island.rows[active_[j]];
     step_[j] = r.scale * r.target - r.dot(free_.data());
@@ -117,7 +111,7 @@ bool DualActiveSet::drop_one_that_pulls(double tolerance) {
 
 /// The growth of row_'s force at which the first active row loses its force, and that row.
 double DualActiveSet::blocking(size_t& first) const {
-  double most = infinite;
+  double most = infinity;
   for (size_t k = 0; k < active_.size(); ++k)
     if (!fixed_[k] && step_[k] > 0 && force_[k] < most * step_[k]) {
       most = force_[k] / step_[k];
@@ -143,7 +137,7 @@ bool DualActiveSet::take_in(const ContactIsland& island, uint32_t c, double shor
     // The force grows until the row is satisfied, or until an active row loses its force.
     size_t first = none;
     const double most = blocking(first);
-    const double enough = free ? max(shortfall, 0.0) / (tail * tail) : infinite;
+    const double enough = free ? max(shortfall, 0.0) / (tail * tail) : infinity;
     if (!free && first == none) return false;
     const double step = min(most, enough);
 
@@ -185,7 +179,7 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
   load.resize(island.free.size());
 
   for (;;) {
-    std::ranges::fill(load, 0.0);
+    ranges::fill(load, 0.0);
     for (size_t k = 0; k < active_.size(); ++k) {
       const ContactIsland::Row& r = island.rows[active_[k]];
       load[r.a] += std::abs(force_[k]) * r.scale * island.inverse_mass[r.a];
@@ -243,8 +237,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
   for (const double y : y_) all = max(all, std::abs(y));
 
   // The rows' errors and the imbalance of forces. Each is reduced as long as it at least halves.
-  double off = infinite;
-  double unbalanced = infinite;
+  double off = infinity;
+  double unbalanced = infinity;
   vector<double>& p = row_;
   vector<double>& g = step_;
   vector<double>& dy = work_;
@@ -259,8 +253,8 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
   const double left = 0x1p-50 / (factors_.least_diagonal() * factors_.least_diagonal());
   const double enough = 0x1p-92 * all;
   while (off > 0 || unbalanced > 0) {
-    std::ranges::fill(g, 0.0);
-    std::ranges::fill(p, 0.0);
+    ranges::fill(g, 0.0);
+    ranges::fill(p, 0.0);
 
     // The correction that removes the rows' errors.
     if (off > 0) {
@@ -270,7 +264,7 @@ void DualActiveSet::refine(const ContactIsland& island, ContactSolution& solutio
       }
       factors_.solve_transposed(g.data());
       const double now = greatest(g);
-      if (!(now < 0.5 * off)) std::ranges::fill(g, 0.0);
+      if (!(now < 0.5 * off)) ranges::fill(g, 0.0);
       off = now < 0.5 * off && left * now > enough ? now : 0;
     }
 
@@ -338,7 +332,7 @@ uint64_t DualActiveSet::signature() const {
 void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) {
   vector<uint64_t> seen;
   infeasible_ = false;
-  std::ranges::fill(aside_, 0);
+  ranges::fill(aside_, 0);
   settle(island);
   take_in_violated(island);
 
@@ -349,7 +343,7 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
     // A row that pulls is removed first.
     if (drop_one_that_pulls(pulling)) {
       const uint64_t now = signature();
-      if (std::ranges::find(seen, now) != seen.end()) return;
+      if (contains(seen, now)) return;
       seen.push_back(now);
       settle(island);
       take_in_violated(island);
@@ -370,7 +364,7 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
 
     // The method ends where a set of active rows returns.
     const uint64_t now = signature();
-    if (std::ranges::find(seen, now) != seen.end()) return;
+    if (contains(seen, now)) return;
     seen.push_back(now);
   }
 }
@@ -388,7 +382,7 @@ DualActiveSet::Result DualActiveSet::solve(const ContactIsland& island, ContactS
   vector<uint32_t> rows;
   for (uint32_t c = 0; c < island.rows.size(); ++c)
     if (island.rows[c].force > 0 && !island.rows[c].bilateral) rows.push_back(c);
-  std::ranges::sort(rows, [&](uint32_t p, uint32_t q) {
+  ranges::sort(rows, [&](uint32_t p, uint32_t q) {
     const double fp = island.rows[p].force / island.rows[p].scale, fq = island.rows[q].force / island.rows[q].scale;
     return fp != fq ? fp > fq : p < q;
   });
@@ -426,7 +420,7 @@ DualActiveSet::Result DualActiveSet::solve_again(const ContactIsland& island, sp
 /// Solves from the active rows. If need be it repeats that with other limits for dependent rows.
 DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, ContactSolution& solution) {
   Result best;
-  best.judgement = {infinite, false};
+  best.judgement = {infinity, false};
   ContactSolution& attempt = attempt_;
 
   for (const double looser : {1.0, 32.0, 1.0 / 16, 1024.0}) {
@@ -434,7 +428,7 @@ DualActiveSet::Result DualActiveSet::finish(const ContactIsland& island, Contact
     if (looser != 1) {
       dependent_ = looser * dependent;
       vector<uint32_t> rows(active_);
-      std::ranges::sort(rows, [&](uint32_t p, uint32_t q) {
+      ranges::sort(rows, [&](uint32_t p, uint32_t q) {
         const double fp = solution.force[p].hi / island.rows[p].scale;
         const double fq = solution.force[q].hi / island.rows[q].scale;
         return fp != fq ? fp > fq : p < q;

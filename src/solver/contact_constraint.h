@@ -1,6 +1,5 @@
 #pragma once
 // The contacts of a problem as plain data.
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "std.h"

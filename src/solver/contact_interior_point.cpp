@@ -7,10 +7,6 @@
 
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 #include "std.h"
 
@@ -21,7 +17,7 @@ namespace {
 using Row = ContactIsland::Row;
 using Vector = vector<double>;
 
-constexpr double no_limit = numeric_limits<double>::infinity();
+constexpr double no_limit = infinity;
 // A share of the effect of a force on its own row, by which a contact yields: at first.
 constexpr double loosest = 1;
 // The same at last.
@@ -137,7 +133,7 @@ class ContactMatrix {
 
 /// The weight of the rows that press. It is the same for all.
 double weight_of(const Vector& weight) {
-  return weight.empty() ? 0 : *std::ranges::max_element(weight);
+  return weight.empty() ? 0 : *ranges::max_element(weight);
 }
 
 double greatest(const Vector& v) {
@@ -174,12 +170,12 @@ class ContactInteriorPoint::Method {
         refine(solution);
         if (const Judgement judgement = judge(island_, solution); judgement.within_slack) return judgement;
       }
-      std::ranges::fill(z_, 0.0);
+      ranges::fill(z_, 0.0);
       y_ = free_;
     }
 
     // Otherwise the interior point comes near the solution. Contacts then yield less and less.
-    if (!approach()) std::ranges::fill(z_, 0.0);
+    if (!approach()) ranges::fill(z_, 0.0);
     for (double rho = loosest; rho > 0.5 * tightest; rho *= 1e-2)
       if (!find_pressing(rho)) break;
 
@@ -189,7 +185,7 @@ class ContactInteriorPoint::Method {
 
   Judgement solve_least(ContactSolution& solution) {
     for (double rho = loosest; rho > 0.5 * least_yield; rho *= 1e-2) {
-      std::ranges::fill(z_, 0.0);
+      ranges::fill(z_, 0.0);
       if (!find_pressing(rho)) break;
     }
 
@@ -296,7 +292,7 @@ class ContactInteriorPoint::Method {
       if (!matrix_.factorise(weight) || !step(lacking, w, gap, count)) {
         y_ = before_y;
         z_ = before_z;
-        return std::isfinite(greatest(y_));
+        return isfinite(greatest(y_));
       }
     }
   }
@@ -413,7 +409,7 @@ class ContactInteriorPoint::Method {
       matrix_.solve(dy);
       for (size_t c = 0; c < m; ++c) slope[c] = island_.rows[c].dot(dy.data());
       const double length = best_length(dy, t, slope, rho);
-      if (!std::isfinite(length)) return false;
+      if (!isfinite(length)) return false;
       for (size_t i = 0; i < dy.size(); ++i) y_[i] += length * dy[i];
     }
 
@@ -436,7 +432,7 @@ class ContactInteriorPoint::Method {
     }
 
     // The points where a row starts or ceases to press.
-    vector<std::pair<double, size_t>> turns;
+    vector<pair<double, size_t>> turns;
     const auto presses = [&](size_t c) { return t[c] > 0 || (t[c] == 0 && slope[c] < 0) || island_.rows[c].bilateral; };
 
     for (size_t c = 0; c < t.size(); ++c) {
@@ -449,7 +445,7 @@ class ContactInteriorPoint::Method {
     }
 
     // Goes from turn to turn as long as the derivative is negative.
-    std::ranges::sort(turns);
+    ranges::sort(turns);
     double from = 0;
     for (const auto& [turn, c] : turns) {
       const double there = at + rise * (turn - from);
@@ -504,7 +500,7 @@ class ContactInteriorPoint::Method {
       former = weight;
       matrix_.solve(lacking);
       const double size = greatest(lacking);
-      if (!std::isfinite(size)) return;
+      if (!isfinite(size)) return;
 
       idle = size < 0.5 * last ? 0 : idle + 1;
       const double used = weight_of(weight);

@@ -3,9 +3,6 @@
 // given.
 #include "solver/contact_island.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "numerics/disjoint_sets.h"
@@ -33,7 +30,7 @@ void add_product(DoubleDouble& sum, double a, const DoubleDouble& b) {
 void ContactIsland::scale() {
   double most = 0;
   double lightest = 0;
-  double heaviest = numeric_limits<double>::infinity();
+  double heaviest = infinity;
   for (const Vec3& u : free) most = max(most, u.cwiseAbs().maxCoeff());
   for (const Row& r : rows) most = max(most, std::abs(r.target));
 
@@ -55,7 +52,7 @@ void ContactIsland::scale() {
   root.resize(inverse_mass.size());
   for (size_t i = 0; i < free.size(); ++i) {
     inverse_mass[i] = mass * inverse_mass[i];
-    root[i] = std::sqrt(inverse_mass[i]);
+    root[i] = sqrt(inverse_mass[i]);
     free[i] = motion * free[i];
     speed = max(speed, free[i].norm());
   }
@@ -66,7 +63,7 @@ void ContactIsland::scale() {
     r.target = motion * r.target;
     r.slack = motion * r.slack;
     r.force = force * r.force;
-    r.scale = 1 / std::sqrt(r.normal.squaredNorm() * (inverse_mass[r.a] + (r.moves_b() ? inverse_mass[r.b] : 0)));
+    r.scale = 1 / sqrt(r.normal.squaredNorm() * (inverse_mass[r.a] + (r.moves_b() ? inverse_mass[r.b] : 0)));
     r.left = r.scale * root[r.a] * r.normal;
     r.right = r.moves_b() ? Vec3(r.scale * root[r.b] * r.normal) : Vec3(Vec3::Zero());
     speed = max(speed, std::abs(r.target));
@@ -84,7 +81,7 @@ void ContactIsland::close_mass_gaps() {
 
   vector<size_t> order(inverse_mass.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::ranges::stable_sort(order, [&](size_t i, size_t j) { return inverse_mass[i] < inverse_mass[j]; });
+  ranges::stable_sort(order, [&](size_t i, size_t j) { return inverse_mass[i] < inverse_mass[j]; });
 
   // Bodies beyond a gap are made heavier, until the gap has the greatest width allowed.
   heavier.assign(inverse_mass.size(), 0);
@@ -204,7 +201,7 @@ Judgement judge(const ContactIsland& island, ContactSolution& solution) {
     const double off = solution.force[c].hi != 0 || r.bilateral ? std::abs(w) : max(-w, 0.0);
     const double change = off == 0 ? 0 : r.scale * off / island.noise_scale(r);
     if (!(change <= accepted_change) && !(off <= r.slack)) judgement.within_slack = false;
-    if (std::isnan(change)) judgement.change = numeric_limits<double>::infinity();
+    if (std::isnan(change)) judgement.change = infinity;
     differ(change);
   }
 

@@ -1,7 +1,6 @@
 #pragma once
 // An island of contacts that share bodies, in units of its own. The methods behind contact_problem.h work on it.
 // The certificate that judges their solutions is here too.
-#include <cmath>
 
 #include "numerics/compensated.h"
 #include "solver/contact_constraint.h"

@@ -3,11 +3,6 @@
 // certificate shows where a method fails. The next one then follows.
 #include "solver/contact_problem.h"
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
-
 #include "numerics/disjoint_sets.h"
 #include "solver/active_set.h"
 #include "solver/contact_interior_point.h"
@@ -66,9 +61,9 @@ bool CachedIsland::resembles(const ContactIsland& island) {
 
   // The rows of the present island, by their bodies.
   const auto key = [](const ContactIsland::Row& r) { return uint64_t{r.a} << 32 | r.b; };
-  vector<std::pair<uint64_t, uint32_t>> order;
+  vector<pair<uint64_t, uint32_t>> order;
   for (uint32_t c = 0; c < island.rows.size(); ++c) order.emplace_back(key(island.rows[c]), c);
-  std::ranges::sort(order);
+  ranges::sort(order);
 
   // Each former row takes the first equal one that is not taken.
   now.assign(rows.size(), DualActiveSet::gone());
@@ -76,7 +71,7 @@ bool CachedIsland::resembles(const ContactIsland& island) {
   size_t found = 0;
   for (size_t k = 0; k < rows.size(); ++k) {
     const ContactIsland::Row& r = rows[k];
-    auto it = std::lower_bound(order.begin(), order.end(), std::pair(key(r), uint32_t{0}));
+    auto it = std::lower_bound(order.begin(), order.end(), pair(key(r), uint32_t{0}));
 
     for (; it != order.end() && it->first == key(r); ++it) {
       const ContactIsland::Row& is = island.rows[it->second];
@@ -131,7 +126,7 @@ bool solve_single(const ContactProblem& problem, ContactConstraint& c, Certifica
 
 /// Whether contact allows the free motion.
 bool nothing_presses(const ContactProblem& problem, span<const uint32_t> contacts) {
-  return std::ranges::all_of(contacts, [&](uint32_t k) {
+  return all_of(contacts, [&](uint32_t k) {
     const ContactConstraint& c = problem.contacts[k];
     const Vec3 b = c.b == ContactConstraint::fixed ? Vec3(Vec3::Zero()) : problem.motion[c.b];
     return !c.bilateral && c.normal.dot(b - problem.motion[c.a]) >= c.target - c.surface;
@@ -176,8 +171,8 @@ class ExactCost {
 }  // namespace
 
 struct ContactSolver::Workspace {
-  std::map<uint32_t, CachedIsland> cached;  // by the lowest body of an island
-  CachedIsland uncached;                    // where nothing is kept
+  map<uint32_t, CachedIsland> cached;  // by the lowest body of an island
+  CachedIsland uncached;               // where nothing is kept
   ContactIslands islands;
   ContactIsland island;
   ContactSolution solution;
@@ -207,7 +202,7 @@ void ContactSolver::Workspace::take_island(const ContactProblem& problem, span<c
         place[body] = 0;
         bodies.push_back(body);
       }
-  std::ranges::sort(bodies);
+  ranges::sort(bodies);
 
   for (uint32_t k = 0; k < bodies.size(); ++k) {
     place[bodies[k]] = k;
@@ -258,7 +253,7 @@ void ContactSolver::Workspace::give_back(const ContactProblem& problem, span<con
 Certificate ContactSolver::Workspace::solve_exactly(ExactCost& cost, CachedIsland& last) {
   // Solutions for which factors are reused: factors may cost so many times more.
   constexpr double worth_while = 8;
-  Certificate best{Certificate::Verdict::doubtful, numeric_limits<double>::infinity()};
+  Certificate best{Certificate::Verdict::doubtful, infinity};
 
   // Keeps the better solution. Returns whether it is accepted.
   const auto take = [&](const Judgement& judgement, bool infeasible) {

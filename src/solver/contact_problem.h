@@ -9,7 +9,6 @@
 // dual active set on orthogonal factors (active_set.h) serves small or ill-conditioned problems, and those similar to
 // the last one. An interior point with a proximal Newton method on the bodies' sparse matrix (contact_interior_point.h)
 // serves large ones. The cheaper method is chosen, unless masses are too unequal for the sparse one.
-#include <algorithm>
 
 #include "solver/contact_constraint.h"
 #include "std.h"

@@ -3,9 +3,6 @@
 // (contact_interior_point.h) finds them from zero, so that they contain nothing that cancels among themselves.
 #include "solver/least_forces.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "solver/contact_interior_point.h"
 #include "std.h"
 

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
 #include <tuple>
 
 #include "compare/compared_run.h"
@@ -85,7 +83,7 @@ CollisionDifference collision_difference(const RunRecord& run_a, const RunRecord
       difference.outcome = difference.same;
       difference.outcome_a = a.facts();
       difference.outcome_b = b.facts();
-      std::tie(difference.column, difference.cell_a, difference.cell_b) = a.first_difference(b);
+      tie(difference.column, difference.cell_a, difference.cell_b) = a.first_difference(b);
     }
     if (a.is_collision()) ++difference.same;
   }
@@ -108,7 +106,7 @@ EndDifference end_difference(const RunRecord& run_a, const RunRecord& run_b) {
   difference.time_a = a.time;
   difference.time_b = b.time;
 
-  std::map<string_view, const EndMotion*> of_b;
+  map<string_view, const EndMotion*> of_b;
   for (const EndMotion& motion : b.bodies) of_b.emplace(motion.body, &motion);
 
   for (const EndMotion& motion : a.bodies) {

@@ -6,11 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <set>
 #include <tuple>
-#include <utility>
 
 #include "files/folder_names.h"
 #include "files/manifest.h"
@@ -42,7 +39,7 @@ vector<string> names_of(const string& path) {
   vector<string> names;
   for (const fs::path& name : whole)
     if (!name.empty() && name != "/") names.push_back(name.string());
-  std::ranges::reverse(names);
+  ranges::reverse(names);
   return names;
 }
 
@@ -53,9 +50,8 @@ string fault_of(ListedRun& run) {
   if (!folder) return "there is no such folder";
 
   const auto manifest = read_manifest(folder.get(), manifest_name);
-  const bool has_summary = manifest && std::ranges::any_of(manifest->files, [](const FileRecord& file) {
-                             return file.name == summary_name;
-                           });
+  const bool has_summary =
+      manifest && any_of(manifest->files, [](const FileRecord& file) { return file.name == summary_name; });
   if (!has_summary) {
     if (stored_size(folder.get(), failure_file)) return "";
     return "it holds no whole run: run its scene again";
@@ -91,7 +87,7 @@ vector<string> runs_of_sweep(const string& folder) {
   const string runs = (fs::path(folder) / "runs").string();
   const Descriptor opened = open_folder(AT_FDCWD, runs, true);
   vector<string> names = opened ? folder_names(opened.get()) : vector<string>();
-  std::ranges::sort(names, is_earlier);
+  ranges::sort(names, is_earlier);
   for (const string& name : names)
     if (is_plain_name(name) && open_folder(opened.get(), name, true)) found.push_back((fs::path(runs) / name).string());
   return found;
@@ -100,7 +96,7 @@ vector<string> runs_of_sweep(const string& folder) {
 /// Sets the ids to the last names of the paths. Equal ids are extended by the names before, without `runs`.
 void name_all(vector<ListedRun>& runs) {
   vector<vector<string>> names;  // of each folder once
-  std::map<vector<string>, vector<size_t>> folders;
+  map<vector<string>, vector<size_t>> folders;
   for (size_t i = 0; i < runs.size(); ++i) {
     vector<string> all = names_of(runs[i].folder);
     if (all.size() > 1) all.erase(std::remove(all.begin() + 1, all.end(), "runs"), all.end());
@@ -116,7 +112,7 @@ void name_all(vector<ListedRun>& runs) {
   for (bool longer = true; longer;) {
     longer = false;
 
-    std::map<string, vector<size_t>> same;
+    map<string, vector<size_t>> same;
     for (size_t k = 0; k < ids.size(); ++k) same[ids[k]].push_back(k);
     for (const auto& [id, numbers] : same) {
       for (const size_t k : numbers) {
@@ -127,7 +123,7 @@ void name_all(vector<ListedRun>& runs) {
     }
   }
 
-  std::map<string, int> taken;  // counts folders that are named twice
+  map<string, int> taken;  // counts folders that are named twice
   for (size_t k = 0; k < names.size(); ++k)
     for (const size_t i : folders[names[k]]) {
       const int before = taken[ids[k]]++;
@@ -209,7 +205,7 @@ class SharedExpressions {
     const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
     const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
     ExpressionTexts own = manifest ? manifest->expressions : ExpressionTexts();
-    if (std::exchange(first_, false)) {
+    if (exchange(first_, false)) {
       texts_ = std::move(own);
       return;
     }
@@ -236,11 +232,11 @@ RunSet::RunSet(vector<ListedRun> runs, const function<void()>& stop_check) : run
   SharedExpressions expressions;
   // Of all scenes, each path once, in the order of the first scene with it.
   vector<SceneValue> all;
-  std::map<string, size_t> known;  // its paths
+  map<string, size_t> known;  // its paths
 
   // By path: the number of scenes with it.
   vector<size_t> counts;
-  std::set<size_t> varying;
+  set<size_t> varying;
   size_t scenes = 0;
 
   for (const ListedRun& run : runs_) {
@@ -274,7 +270,7 @@ RunSet::RunSet(vector<ListedRun> runs, const function<void()>& stop_check) : run
   const auto seed = numbers_.find("seed");
   if (seed == numbers_.end()) return;
 
-  std::set<string> scenarios;
+  set<string> scenarios;
   for (size_t i = 0; i < runs_.size(); ++i) {
     Sha256 hash;
     const ComparedRun compared = run(i);

@@ -1,6 +1,5 @@
 #pragma once
 // Named folders to the runs in them, and to the values in which their scenes differ.
-#include <map>
 
 #include "compare/comparison.h"
 #include "scene/sweep.h"
@@ -46,7 +45,7 @@ class RunSet {
  private:
   vector<ListedRun> runs_;
   vector<Parameter> parameters_;
-  std::map<string, size_t> numbers_;  // indices of parameters, by path
+  map<string, size_t> numbers_;  // indices of parameters, by path
   optional<size_t> seed_;
   optional<Sweep> sweep_;
   /// By run: its number in the sweep.

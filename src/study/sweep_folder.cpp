@@ -7,12 +7,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <thread>
 
 #include "files/copied_run.h"
@@ -52,7 +50,7 @@ optional<Manifest> read_sweep_manifest(int folder) {
 bool is_whole(int folder, const string& path, const Sweep& sweep, const Manifest& manifest) {
   if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, is_picture).empty()) return false;
   const string mark = path + "/" + manifest_name;
-  std::set<string> absent(manifest.failed.begin(), manifest.failed.end());
+  set<string> absent(manifest.failed.begin(), manifest.failed.end());
   for (auto& [id, errors] : stored_skips(path)) absent.insert(std::move(id));
   for (size_t number = 0; number < sweep.size(); ++number) {
     const string id = sweep.id(number);
@@ -76,8 +74,7 @@ bool has_runs_of(int folder, const Sweep& sweep, const string& base_text) {
 
 /// Whether this sweep was interrupted, or ran out of space, before base.yaml was complete. No run begins before that.
 bool has_begun(const FoundFolder& found, const Sweep& sweep) {
-  const bool alone =
-      std::ranges::all_of(found.names, [](const auto& name) { return name == stored_sweep || is_part_name(name); });
+  const bool alone = all_of(found.names, [](const auto& name) { return name == stored_sweep || is_part_name(name); });
   return alone && read_text(found.folder.get(), stored_sweep, largest) == sweep.resolved(stored_base);
 }
 
@@ -113,8 +110,8 @@ string skipped_text(const Sweep& sweep, const vector<InvalidRun>& invalid) {
   return text;
 }
 
-vector<std::pair<string, string>> stored_skips(const string& path) {
-  vector<std::pair<string, string>> skips;
+vector<pair<string, string>> stored_skips(const string& path) {
+  vector<pair<string, string>> skips;
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   Descriptor file = folder ? open_stored(folder.get(), stored_skipped) : Descriptor();
   if (!file) return skips;

@@ -40,7 +40,7 @@ bool is_ended_sweep(const string& folder);
 string skipped_text(const Sweep& sweep, const vector<InvalidRun>& invalid);
 
 /// The runs that a folder's stored_skipped lists: id and errors.
-vector<std::pair<string, string>> stored_skips(const string& folder);
+vector<pair<string, string>> stored_skips(const string& folder);
 
 /// The failed runs of a sweep, according to its manifest.
 vector<string> stored_failures(const string& folder);

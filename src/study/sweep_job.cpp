@@ -5,14 +5,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <tuple>
-#include <utility>
 
 #include "compare/compared_run.h"
 #include "files/copied_run.h"
@@ -48,9 +44,9 @@ constexpr double sync_every = 2;  // s
 
 /// Removes repeated errors, and keeps each under the first run that has it.
 /// An error is a line and the lines below it that begin with a blank.
-std::pair<string, size_t> each_once(string_view text) {
+pair<string, size_t> each_once(string_view text) {
   string out, head;
-  std::set<string, std::less<>> known;
+  set<string, std::less<>> known;
 
   for (size_t i = 0; i < text.size();) {
     size_t end = i;
@@ -63,7 +59,7 @@ std::pair<string, size_t> each_once(string_view text) {
     if (block.ends_with(":\n")) {
       head = block;
     } else if (known.emplace(block).second && known.size() <= errors_shown) {
-      out += std::exchange(head, "");
+      out += exchange(head, "");
       out += block;
     }
   }
@@ -105,10 +101,10 @@ struct WrongRuns {
  private:
   void add(const ErrorRecord& record) {
     const auto is_same = [&](const ErrorRecord& other) {
-      return std::tie(record.file, record.line, record.column, record.message) ==
-             std::tie(other.file, other.line, other.column, other.message);
+      return tie(record.file, record.line, record.column, record.message) ==
+             tie(other.file, other.line, other.column, other.message);
     };
-    if (records.size() < errors_shown && std::ranges::none_of(records, is_same)) records.push_back(record);
+    if (records.size() < errors_shown && none_of(records, is_same)) records.push_back(record);
   }
 };
 
@@ -162,7 +158,7 @@ string measured_text(const Scene& scene, const vector<Measure>& more) {
 
 LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
   const auto is_film = [](const SweepValue& output) { return output.text == "video"; };
-  load.chooses_outputs = !sweep.only.empty() && std::ranges::none_of(sweep.only, is_film);
+  load.chooses_outputs = !sweep.only.empty() && none_of(sweep.only, is_film);
   return load;
 }
 
@@ -255,7 +251,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
 
   measures_ = measures_of(comparison_plan(sweep_, base_.text()));
   // By the first run of the batch.
-  std::map<size_t, WrongRuns> wrong;
+  map<size_t, WrongRuns> wrong;
 
   Tasks tasks;
   tasks.next = [&]() -> optional<size_t> {
@@ -305,7 +301,7 @@ void SweepJob::plan(const function<void(const SweepProgress&)>& report_progress)
 optional<size_t> SweepJob::other_content() const {
   // Changes in the folders of other parts' runs do not count.
   const vector<size_t> mine = of_part();
-  const auto found = std::ranges::find_if(mine, [&](size_t number) {
+  const auto found = ranges::find_if(mine, [&](size_t number) {
     const FolderContent content = runs_[number].content;
     return content == FolderContent::other_run || content == FolderContent::more || content == FolderContent::touched;
   });
@@ -320,7 +316,7 @@ vector<string> SweepJob::idle_paths() const {
     const string_view head = string_view(path).substr(0, path.find('.'));
     if (head == "output" || head == "title" || is_drawn(path)) continue;
 
-    std::map<string, size_t> first;  // by the other values
+    map<string, size_t> first;  // by the other values
     size_t pairs = 0, alike = 0;
     for (size_t number = 0; number < min(runs_.size(), most); ++number) {
       if (runs_[number].status == RunStatus::left_out) continue;
@@ -351,8 +347,8 @@ vector<SweepJob::Motion> SweepJob::motions() const {
   vector<size_t> order;
   for (size_t number = 0; number < runs_.size(); ++number)
     if (runs_[number].status != RunStatus::left_out) order.push_back(number);
-  std::ranges::sort(order, [&](size_t a, size_t b) {
-    return std::tie(runs_[a].motion, runs_[a].scene, a) < std::tie(runs_[b].motion, runs_[b].scene, b);
+  ranges::sort(order, [&](size_t a, size_t b) {
+    return tie(runs_[a].motion, runs_[a].scene, a) < tie(runs_[b].motion, runs_[b].scene, b);
   });
 
   vector<Motion> motions;
@@ -382,7 +378,7 @@ vector<SweepJob::Motion> SweepJob::motions() const {
       }
 
       shared.scenarios.push_back(std::move(to_do));
-      if (shared.scenarios.size() == most_shows) motion.units.push_back(std::exchange(shared, {}));
+      if (shared.scenarios.size() == most_shows) motion.units.push_back(exchange(shared, {}));
     }
 
     if (!shared.scenarios.empty()) motion.units.push_back(std::move(shared));
@@ -390,7 +386,7 @@ vector<SweepJob::Motion> SweepJob::motions() const {
   }
 
   // The division into parts must not depend on what is already done.
-  std::ranges::sort(motions, [](const Motion& a, const Motion& b) { return first(a) < first(b); });
+  ranges::sort(motions, [](const Motion& a, const Motion& b) { return first(a) < first(b); });
 
   vector<Motion> mine;
   for (size_t m = settings_.shard.index - 1; m < motions.size(); m += settings_.shard.count)
@@ -399,7 +395,7 @@ vector<SweepJob::Motion> SweepJob::motions() const {
 }
 
 size_t SweepJob::first(const Motion& motion) {
-  return *std::ranges::min_element(motion.runs);
+  return *ranges::min_element(motion.runs);
 }
 
 vector<SweepJob::Unit> SweepJob::units() const {
@@ -411,7 +407,7 @@ vector<SweepJob::Unit> SweepJob::units() const {
 vector<size_t> SweepJob::of_part() const {
   vector<size_t> out;
   for (const Motion& motion : motions()) out.insert(out.end(), motion.runs.begin(), motion.runs.end());
-  std::ranges::sort(out);
+  ranges::sort(out);
   return out;
 }
 
@@ -429,7 +425,7 @@ size_t SweepJob::left() const {
 /// The result of a unit as JSON: the reason for each failed run.
 string SweepJob::work(const Unit& unit) {
   Json failures = Json::object();
-  const auto fail = [&](size_t number, const string& why) { failures[std::to_string(number)] = why; };
+  const auto fail = [&](size_t number, const string& why) { failures[to_string(number)] = why; };
 
   const auto copy_to_all = [&](size_t from, const vector<size_t>& runs) {
     for (const size_t number : runs) {
@@ -521,7 +517,7 @@ void SweepJob::run(const function<void(const SweepProgress&)>& report_progress,
     for (const auto& scenario : all[outcome.task].scenarios) {
       for (const size_t number : scenario) {
         ++progress.done;
-        const auto found = failures.find(std::to_string(number));
+        const auto found = failures.find(to_string(number));
         if (!whole)
           fail(number, outcome.text);
         else if (found != failures.end())

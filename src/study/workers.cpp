@@ -9,7 +9,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -122,7 +121,7 @@ class Pool {
       tasks_.stop_check();
 
       for (const pollfd& socket : sockets) {
-        Worker& worker = *std::ranges::find_if(workers_, [&](const Worker& w) { return w.socket == socket.fd; });
+        Worker& worker = *ranges::find_if(workers_, [&](const Worker& w) { return w.socket == socket.fd; });
         if (ready ? socket.revents == 0 : !has_ended(worker)) continue;
         take(worker);
         give(worker);

@@ -4,7 +4,6 @@
 // A quotient without a finite expansion falls back to the nearest double.
 #include "yaml/decimal.h"
 
-#include <algorithm>
 #include <charconv>
 
 #include "std.h"
@@ -35,7 +34,7 @@ string digits_of(Wide value) {
     out += char('0' + int(value % 10));
     value /= 10;
   } while (value != 0);
-  std::ranges::reverse(out);
+  ranges::reverse(out);
   return out;
 }
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <tuple>
 
 #include "std.h"
@@ -266,7 +265,7 @@ string Diagnostics::show(const Error& error, bool color) const {
     if (marks.empty()) marks = "~";
     marks[0] = '^';
 
-    const string number = source.option ? "" : std::to_string(line_number);
+    const string number = source.option ? "" : to_string(line_number);
     gutter = string(max<size_t>(number.size(), 4), ' ');
     out += fmt::format("{:>4} | {}\n", number, shown);
     out += fmt::format("{} | {}{}\n", gutter, under, paint(marks, "1;32", color));
@@ -285,7 +284,7 @@ vector<const Diagnostics::Error*> Diagnostics::in_order() const {
   vector<const Error*> order;
   for (const Error& error : errors_) order.push_back(&error);
   // The order: errors of the file as a whole, then the file's in its order, then those of each --set.
-  std::ranges::stable_sort(order, [](const Error* a, const Error* b) {
+  ranges::stable_sort(order, [](const Error* a, const Error* b) {
     return std::tuple(a->placed, a->place.source, a->place.offset) <
            std::tuple(b->placed, b->place.source, b->place.offset);
   });
@@ -313,7 +312,7 @@ vector<ErrorRecord> Diagnostics::records() const {
       const Source& source = sources_[error->place.source];
       record.file = source.name;
       const LineSpot spot = spot_of(source, error->place);
-      if (!source.option) std::tie(record.line, record.column) = std::pair(spot.line, spot.column);
+      if (!source.option) tie(record.line, record.column) = pair(spot.line, spot.column);
     }
     records.push_back(std::move(record));
   }

@@ -1,8 +1,5 @@
 #pragma once
 // Errors with places, collected, sorted and shown: place, line, caret, remedy.
-#include <map>
-#include <set>
-#include <utility>
 
 #include "std.h"
 #include "yaml/place.h"
@@ -81,9 +78,9 @@ class Diagnostics {
   const vector<Source>& sources_;
   vector<Error> errors_;
   size_t added_ = 0;
-  std::set<std::pair<uint32_t, uint32_t>> repeated_;  // sources and offsets
+  set<pair<uint32_t, uint32_t>> repeated_;  // sources and offsets
   /// By place and message without numbers: the number of the error.
-  std::map<string, size_t> first_of_alike_;
+  map<string, size_t> first_of_alike_;
 };
 
 /// `text` between backticks, for use inside a message: shortened and free of control characters.

@@ -9,7 +9,6 @@
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
 
-#include <algorithm>
 #include <sstream>
 #include <unordered_map>
 
@@ -45,7 +44,7 @@ class DocumentBuilder : public YAML::EventHandler {
     const size_t first = text_.find_first_not_of(' ', base_);
     if (source_ > 0 && first != string_view::npos && (text_[first] == '{' || text_[first] == '[')) {
       refuse(at(mark), string(text_after_bracket), string(quotes_for_bracket));
-    } else if (!root.is(Node::Kind::map)) {
+    } else if (!root.is_map()) {
       refuse({source_, 0, 1}, "this is not a scene", "expected a map of keys, such as `scene: 1`");
     } else if (at(mark).offset == base_) {
       refuse(at(mark), "this is not a scene", "expected a map of keys, such as `scene: 1`");
@@ -134,7 +133,7 @@ class DocumentBuilder : public YAML::EventHandler {
     if (++refusals_ > max_refusals) throw Stop{};
   }
 
-  bool in_map() const { return !open_.empty() && open_.back().node.is(Node::Kind::map); }
+  bool in_map() const { return !open_.empty() && open_.back().node.is_map(); }
   bool awaits_key() const { return in_map() && !open_.back().pending; }
   bool awaits_value() const { return in_map() && open_.back().pending; }
   const Key& key() const { return *open_.back().pending; }
@@ -221,7 +220,7 @@ class DocumentBuilder : public YAML::EventHandler {
     }
 
     Open& parent = open_.back();
-    if (parent.node.is(Node::Kind::map)) {
+    if (parent.node.is_map()) {
       Key name = std::move(*parent.pending);
       parent.pending.reset();
       if (name.text == "<<" || name.text.empty()) return;  // reported

@@ -30,7 +30,10 @@ struct Node {
   /// Of a sequence, or of a map: as many as keys.
   vector<Node> items;
 
-  bool is(Kind k) const { return kind == k; }
+  bool is_null() const { return kind == Kind::null; }
+  bool is_scalar() const { return kind == Kind::scalar; }
+  bool is_sequence() const { return kind == Kind::sequence; }
+  bool is_map() const { return kind == Kind::map; }
   const Node* find(string_view key) const;
   Node* find(string_view key);
   const Key* find_key(string_view key) const;

@@ -20,7 +20,7 @@ string joined(const Texts& texts, string_view separator) {
 
 /// "1 entry", "2 entries"
 inline string how_many(size_t count, string_view one, string_view many) {
-  return std::to_string(count).append(" ").append(count == 1 ? one : many);
+  return to_string(count).append(" ").append(count == 1 ? one : many);
 }
 
 }  // namespace carom

@@ -1,7 +1,5 @@
 #include "yaml/letters.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {
@@ -63,7 +61,7 @@ string in_lower_case(string_view text) {
 }
 
 size_t letters_of(string_view text) {
-  return size_t(std::ranges::count_if(text, begins_letter));
+  return size_t(ranges::count_if(text, begins_letter));
 }
 
 string shortened(string_view text, size_t most) {

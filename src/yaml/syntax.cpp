@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <utility>
-
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/letters.h"

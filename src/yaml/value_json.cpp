@@ -2,8 +2,6 @@
 // words for flags.
 #include "yaml/value_json.h"
 
-#include <cmath>
-
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/values.h"
@@ -22,7 +20,7 @@ string text_of_json(const Json& value, int indent) {
 
 Json number_json(double value) {
   constexpr double whole_below = 9007199254740992.0;
-  if (std::floor(value) == value && std::fabs(value) < whole_below) return int64_t(value);
+  if (floor(value) == value && std::fabs(value) < whole_below) return int64_t(value);
   return value;
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 
 #include "std.h"
 #include "yaml/diagnostics.h"
@@ -80,7 +79,7 @@ optional<double> parse_number(string_view text) {
   const string_view digits = text.starts_with('+') ? text.substr(1) : text;
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value)) return nullopt;
+  if (error != std::errc() || end != digits.data() + digits.size() || !isfinite(value)) return nullopt;
   if (value == 0 && !is_zero(digits)) return nullopt;
   return value;
 }
@@ -96,7 +95,7 @@ optional<uint64_t> parse_whole(string_view text) {
   if (const optional<uint64_t> digits = parse_index(text)) return digits;
   if (has_leading_zero(text)) return nullopt;
   const optional<double> value = parse_number(text);
-  if (!value || *value < 0 || *value > 9007199254740992.0 || std::floor(*value) != *value) return nullopt;
+  if (!value || *value < 0 || *value > 9007199254740992.0 || floor(*value) != *value) return nullopt;
   return uint64_t(*value);
 }
 

@@ -1,11 +1,8 @@
 // Every #include below src/ against the table of allowed includes in src/README.md.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <map>
 #include <regex>
-#include <set>
 
 #include "architecture/source_tree.h"
 #include "std.h"
@@ -16,18 +13,18 @@ namespace {
 /// The table's rule for one folder of src/ ("main" for main.cpp).
 struct Rule {
   bool all = false;
-  std::set<string> folders;    // if all: those that it may not
-  std::set<string> headers;    // single headers of other folders
-  std::set<string> libraries;  // that no other folder includes
+  set<string> folders;    // if all: those that it may not
+  set<string> headers;    // single headers of other folders
+  set<string> libraries;  // that no other folder includes
 };
 
 /// The table's names for single headers, and for libraries with the start of their include paths.
-const std::map<string, vector<string>> header_words = {
+const map<string, vector<string>> header_words = {
     {"scene's types", {"scene/scene.h", "scene/colors.h", "scene/output.h", "scene/overlay.h"}},
     {"yaml's texts", {"yaml/joined.h", "yaml/letters.h", "yaml/other_case.h", "yaml/value_json.h"}},
     {"render's Image", {"render/image.h"}},
     {"render's Model", {"render/model.h"}}};
-const std::map<string, vector<string>> library_words = {
+const map<string, vector<string>> library_words = {
     {"Eigen", {"Eigen/"}},
     {"vector intrinsics", {"immintrin.h"}},
     {"yaml-cpp", {"yaml-cpp/"}},
@@ -82,13 +79,13 @@ Rule read_rule(const string& may_include, const string& only_place) {
     } else if (std::filesystem::is_directory(SOURCE_DIR "/src/" + word)) {
       rule.folders.insert(word);
     } else {
-      throw std::runtime_error("the table says \"" + word + "\", which is no folder");
+      throw runtime_error("the table says \"" + word + "\", which is no folder");
     }
   }
 
   for (const string& word : split(only_place, ',')) {
     if (!library_words.contains(word)) {
-      throw std::runtime_error("the table says \"" + word + "\", a library that this test does not know");
+      throw runtime_error("the table says \"" + word + "\", a library that this test does not know");
     }
     rule.libraries.insert(word);
   }
@@ -96,8 +93,8 @@ Rule read_rule(const string& may_include, const string& only_place) {
 }
 
 /// The table, by folder.
-std::map<string, Rule> read_table() {
-  std::map<string, Rule> table;
+map<string, Rule> read_table() {
+  map<string, Rule> table;
   bool inside = false;
 
   for (const string& line : read_source("src/README.md").lines()) {
@@ -154,11 +151,11 @@ string top_of(const string& folder) {
 }
 
 bool starts_with_any(const string& path, const vector<string>& starts) {
-  return std::ranges::any_of(starts, [&](const string& start) { return path.starts_with(start); });
+  return any_of(starts, [&](const string& start) { return path.starts_with(start); });
 }
 
 /// All own headers that a file includes, directly or through others.
-void add_reach(const SourceFile& file, std::set<string>& reach) {
+void add_reach(const SourceFile& file, set<string>& reach) {
   for (const Include& include : includes_of(file)) {
     if (include.own && reach.insert(include.path).second) {
       for (const SourceFile& other : program_files()) {
@@ -224,6 +221,20 @@ TEST(Includes, LibrariesOnlyAtTheirOnlyPlace) {
   }
 }
 
+TEST(Includes, OfTheVocabularyAreNotRepeated) {
+  set<string> standard;
+  for (const Include& include : includes_of(read_source(string("src/") + own_vocabulary)))
+    standard.insert(include.path);
+
+  for (const SourceFile& file : program_files()) {
+    const vector<Include> includes = includes_of(file);
+    if (none_of(includes, [](const Include& include) { return include.path == own_vocabulary; })) continue;
+    for (const Include& include : includes) {
+      EXPECT_FALSE(standard.contains(include.path)) << file.path << ": <" << include.path << "> is in std.h";
+    }
+  }
+}
+
 TEST(Includes, OnlyExportStartsOtherPrograms) {
   for (const SourceFile& file : program_files()) {
     for (const char* program : {"\"ffmpeg\"", "\"gnuplot\""}) {
@@ -233,10 +244,10 @@ TEST(Includes, OnlyExportStartsOtherPrograms) {
 }
 
 TEST(Includes, SimulatorsExportsAndLoaderNeverReachOneAnother) {
-  const std::map<string, vector<string>> never = {{"simulate", {"export/", "files/", "scene/", "yaml/"}},
-                                                  {"export", {"simulate/", "scene/load.h"}},
-                                                  {"files", {"simulate/", "export/", "scene/load.h"}},
-                                                  {"scene", {"simulate/", "export/", "files/"}}};
+  const map<string, vector<string>> never = {{"simulate", {"export/", "files/", "scene/", "yaml/"}},
+                                             {"export", {"simulate/", "scene/load.h"}},
+                                             {"files", {"simulate/", "export/", "scene/load.h"}},
+                                             {"scene", {"simulate/", "export/", "files/"}}};
 
   for (const SourceFile& file : program_files()) {
     const auto banned = never.find(top_of(folder_of(file)));
@@ -244,7 +255,7 @@ TEST(Includes, SimulatorsExportsAndLoaderNeverReachOneAnother) {
       continue;
     }
 
-    std::set<string> reach;
+    set<string> reach;
     add_reach(file, reach);
     for (const string& header : reach) {
       EXPECT_FALSE(starts_with_any(header, banned->second)) << file.path << " reaches " << header;

@@ -1,9 +1,7 @@
 // The tree against its layout, and the banned contents of files.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <regex>
-#include <set>
 
 #include "architecture/source_tree.h"
 #include "std.h"
@@ -12,8 +10,8 @@ namespace carom::testing {
 namespace {
 
 TEST(Layout, TopLevelHoldsOnlyWhatTheLayoutNames) {
-  const std::set<string> named = {"CMakeLists.txt", "CMakePresets.json", "README.md", "dev", "scenes", "src", "tests",
-                                  "output"};
+  const set<string> named = {"CMakeLists.txt", "CMakePresets.json", "README.md", "dev", "scenes", "src", "tests",
+                             "output"};
   for (const SourceFile& file : tracked_files()) {
     const string top = file.path.substr(0, file.path.find('/'));
     EXPECT_TRUE(named.contains(top) || top.starts_with(".")) << file.path;
@@ -40,10 +38,9 @@ TEST(Layout, EverySceneOpensWithACommentAndNamesItsFormat) {
       continue;
     }
     const auto lines = file.lines();
-    const auto first = std::ranges::find_if(lines, [](const auto& line) { return !std::regex_match(line, modeline); });
+    const auto first = ranges::find_if(lines, [](const auto& line) { return !std::regex_match(line, modeline); });
     EXPECT_TRUE(first != lines.end() && first->starts_with("# ")) << file.path << " says nothing of itself";
-    EXPECT_EQ(std::ranges::count(lines, file.path.starts_with("scenes/sweeps/") ? "sweep: 1" : "scene: 1"), 1)
-        << file.path;
+    EXPECT_EQ(ranges::count(lines, file.path.starts_with("scenes/sweeps/") ? "sweep: 1" : "scene: 1"), 1) << file.path;
   }
 }
 

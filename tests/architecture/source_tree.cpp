@@ -1,6 +1,5 @@
 #include "architecture/source_tree.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -20,7 +19,7 @@ vector<string> walk(const string& folder, const vector<string>& skip) {
   for (auto i = fs::recursive_directory_iterator(fs::path(SOURCE_DIR) / folder);
        i != fs::recursive_directory_iterator(); ++i) {
     string path = fs::relative(i->path(), SOURCE_DIR).generic_string();
-    if (std::ranges::count(skip, path)) {
+    if (ranges::count(skip, path)) {
       i.disable_recursion_pending();
     } else if (i->is_regular_file()) {
       paths.push_back(std::move(path));
@@ -55,7 +54,7 @@ vector<string> git_paths() {
 }
 
 vector<SourceFile> read_all(vector<string> paths) {
-  std::ranges::sort(paths);
+  ranges::sort(paths);
   vector<SourceFile> files;
   std::transform(paths.begin(), paths.end(), std::back_inserter(files), read_source);
   return files;

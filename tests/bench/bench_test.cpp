@@ -3,10 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "bench/bench_folder.h"
 #include "scene/load.h"
 #include "scene/scene.h"
@@ -47,7 +43,7 @@ vector<BenchRow> rows_of(const BenchResult& result, Engine engine, Integrator in
 double order_of(const vector<BenchRow>& rows, double Differences::*error) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const BenchRow& row : rows) {
-    const double x = std::log(*row.method.steps.length), y = std::log((*row.errors).*error);
+    const double x = log(*row.method.steps.length), y = log((*row.errors).*error);
     sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const auto n = static_cast<double>(rows.size());
@@ -61,7 +57,7 @@ TEST(Bench, ErrorsFallByTheOrderOfTheMethod) {
   const BenchResult result = bench(scene_of("bumper"), 0x1p-6, 0x1p-10);
   EXPECT_EQ(result.reference.engine, Engine::exact);  // sines
   EXPECT_FALSE(result.chaotic);
-  const std::map<Integrator, double> orders = {{Integrator::euler, 1}, {Integrator::verlet, 2}, {Integrator::rk4, 4}};
+  const map<Integrator, double> orders = {{Integrator::euler, 1}, {Integrator::verlet, 2}, {Integrator::rk4, 4}};
   for (const auto& [integrator, order] : orders) {
     const auto rows = rows_of(result, Engine::stepped, integrator);
     ASSERT_EQ(rows.size(), 5u);
@@ -118,7 +114,7 @@ TEST(Bench, IslandsHaveNoIndependentCheckButAnErrorOfTheirSteps) {
   scene.world.radius = {0.05};
   scene.world.restitution = {1};
   scene.initial.position = {Vec3(0.6, -0.8, 0)};
-  scene.initial.velocity = {Vec3(0, 0, 0.6 * std::sqrt(9.75 / 0.8))};
+  scene.initial.velocity = {Vec3(0, 0, 0.6 * sqrt(9.75 / 0.8))};
   scene.world.strings = {{0, no_entity, Vec3::Zero(), 1}};
   scene.simulate.duration = 500;
 
@@ -129,7 +125,7 @@ TEST(Bench, IslandsHaveNoIndependentCheckButAnErrorOfTheirSteps) {
   // The string's body goes around in a circle.
   const auto simulator = make_simulator(scene);
   while (simulator->time() < 500) simulator->advance_to(500);
-  const double angle = 500 * std::sqrt(9.75 / 0.8);
+  const double angle = 500 * sqrt(9.75 / 0.8);
   const double off = (simulator->state().position[0] - Vec3(0.6 * std::cos(angle), -0.8, 0.6 * std::sin(angle))).norm();
   EXPECT_LT(off, 10 * result.reference_error.position);  // measured: 5.3e-10, 1.0 times
 

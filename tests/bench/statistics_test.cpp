@@ -28,8 +28,8 @@ TEST(Statistics, DeviationIsInStandardDeviationsOfOneMoreRun) {
   const Ensemble ensemble({run_with(9, 1), run_with(10, 1), run_with(11, 1)});
   EXPECT_EQ(ensemble.mean().collision_rate, 10);
   EXPECT_EQ(ensemble.deviation(run_with(10, 1)).value, 0);
-  EXPECT_NEAR(ensemble.deviation(run_with(12, 1)).value, 2 / std::sqrt(4.0 / 3), 1e-12);
-  EXPECT_NEAR(ensemble.deviation(run_with(8, 1)).value, 2 / std::sqrt(4.0 / 3), 1e-12);
+  EXPECT_NEAR(ensemble.deviation(run_with(12, 1)).value, 2 / sqrt(4.0 / 3), 1e-12);
+  EXPECT_NEAR(ensemble.deviation(run_with(8, 1)).value, 2 / sqrt(4.0 / 3), 1e-12);
 }
 
 TEST(Statistics, WhatIsTheSameInAllRunsHasNoDeviation) {

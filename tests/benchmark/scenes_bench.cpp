@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "bench/state_hash.h"
@@ -62,7 +61,7 @@ const bool registered = [] {
   for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR "/benchmark")) {
     files.push_back(entry.path());
   }
-  std::ranges::sort(files);
+  ranges::sort(files);
 
   for (const std::filesystem::path& file : files) {
     const string name = "/" + file.stem().string();

@@ -1,7 +1,6 @@
 // carom new, explain and schema, by the real program.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
@@ -167,7 +166,7 @@ TEST(Explain, PrintsAllOfAKeyByItsPath) {
 TEST(Explain, PrintsEveryPlaceOfABareKey) {
   const Workplace here;
   const Json fields = Json::parse(here.carom({"explain", "restitution", "--json"}).out)["fields"];
-  std::set<string> paths;
+  set<string> paths;
   for (const Json& field : fields) {
     for (const Json& path : field["paths"]) paths.insert(path);
   }
@@ -233,7 +232,7 @@ TEST(Explain, NamesWhatReplacesAnAbsentWord) {
 }
 
 TEST(Explain, EveryWordThatIsAbsentStandsInOneRowAndPointsAtKeys) {
-  std::set<string_view> words;
+  set<string_view> words;
   for (const AbsentWord& row : absent_words()) {
     for (const string_view word : parts_of(row.words)) {
       EXPECT_TRUE(words.insert(word).second) << word;
@@ -249,7 +248,7 @@ TEST(Explain, WhatAnAbsentWordProposesIsOfTheFormat) {
     const Field& field = *row.field;
     if (field.type == Type::flag) return value == "true" || value == "false";
     const vector<string_view> all = choices(field);
-    return field.type != Type::choice || std::ranges::find(all, value) != all.end();
+    return field.type != Type::choice || contains(all, value);
   };
 
   for (const AbsentWord& row : absent_words()) {
@@ -270,8 +269,7 @@ TEST(Explain, WhatAnAbsentWordProposesIsOfTheFormat) {
       } else {
         const vector<FieldPlaces> rows = find_places(key);
         EXPECT_FALSE(rows.empty()) << term;
-        EXPECT_TRUE(value.empty() ||
-                    std::ranges::any_of(rows, [&](const FieldPlaces& place) { return choice_of(place, value); }))
+        EXPECT_TRUE(value.empty() || any_of(rows, [&](const FieldPlaces& place) { return choice_of(place, value); }))
             << term;
       }
     }

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 /// Runs a, b and c that differ in the red ball's restitution.
 void make_runs(const Workplace& here, const string& more = tables) {
   here.write("balls.yaml", two_balls(more));
-  for (const auto& [name, e] : {std::pair("a", "0.5"), std::pair("b", "0.75"), std::pair("c", "1")})
+  for (const auto& [name, e] : {pair("a", "0.5"), pair("b", "0.75"), pair("c", "1")})
     ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", string("runs/") + name, "--set",
                           string("balls.red.restitution=") + e, "-q"})
                   .code,
@@ -282,7 +282,7 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
         .out;
   };
 
-  const string compared = grey("output/comparison/comparison.mp4", "320:240:0:" + std::to_string(strip));
+  const string compared = grey("output/comparison/comparison.mp4", "320:240:0:" + to_string(strip));
   const string own = grey("runs/first/animation.mp4", "320:240:0:0");
   ASSERT_EQ(compared.size(), 320u * 240);
   ASSERT_EQ(own.size(), compared.size());
@@ -292,8 +292,8 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
     most = std::max(most, std::abs(static_cast<unsigned char>(compared[i]) - static_cast<unsigned char>(own[i])));
   EXPECT_LT(most, 60) << "the film below its label is unchanged, but for the second encoding";
 
-  const string label = grey("output/comparison/comparison.mp4", "320:" + std::to_string(strip) + ":0:0");
-  const auto letters = std::ranges::count_if(label, [](char c) { return (c & 0x80) != 0; });
+  const string label = grey("output/comparison/comparison.mp4", "320:" + to_string(strip) + ":0:0");
+  const auto letters = ranges::count_if(label, [](char c) { return (c & 0x80) != 0; });
   EXPECT_GT(letters, 20) << "the run's name in white";
   EXPECT_EQ(
       here.shell("XDG_DATA_HOME= HOME= XDG_DATA_DIRS=$PWD $CAROM compare runs/first runs/second --video -o other").err,
@@ -426,8 +426,8 @@ TEST(DiffCommand, CountsCollisionsAsTheReportOfARunDoes) {
   const string count = row.substr(0, row.find(','));
   ASSERT_NE(here.read("run/collisions.csv").find(",rest,"), string::npos);
   const Json same = Json::parse(here.carom({"diff", "run", "same", "--json"}).out);
-  EXPECT_EQ(std::to_string(same["collisions"]["a"].get<int>()), count);
-  EXPECT_EQ(std::to_string(same["collisions"]["same"].get<int>()), count);
+  EXPECT_EQ(to_string(same["collisions"]["a"].get<int>()), count);
+  EXPECT_EQ(to_string(same["collisions"]["same"].get<int>()), count);
   EXPECT_EQ(same["equal"], true);
 }
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "commands/program.h"
 #include "scene/load.h"
 #include "scene/scene.h"
@@ -15,7 +13,7 @@ namespace {
 
 /// So many balls of 0.1 m that fall by 1.9 m at most.
 Scene pour(int count, const string& more) {
-  const string text = "scene: 1\nballs: {b: {repeat: " + std::to_string(count) +
+  const string text = "scene: 1\nballs: {b: {repeat: " + to_string(count) +
                       ", mass: 1, radius: 0.1, position: ['= i', 1.9, 0]}}\nsimulate: {duration: 9}\n" + more;
   const Workplace here;
   here.write("pour.yaml", text);
@@ -26,7 +24,7 @@ TEST(CrowdAhead, FollowsTheFallAndWhatImpactsTake) {
   const Scene scene =
       pour(100, "gravity: [0, -9.5, 0]\nrestitution: 0.5\nplanes: {f: {point: [0, 0, 0], normal: [0, 1, 0]}}\n");
   const CrowdAhead ahead = crowd_ahead(scene, Engine::exact);
-  const double fall = std::sqrt(2 * 1.9 / 9.5);
+  const double fall = sqrt(2 * 1.9 / 9.5);
   EXPECT_NEAR(ahead.from, fall / 0.75, 1e-12);
   EXPECT_NEAR(ahead.until, fall / 0.75 + 5 * fall, 1e-12);
   EXPECT_GT(ahead.rate, 0);

@@ -1,7 +1,6 @@
 // Runs with wrong energy balances are reported as doubtful everywhere; runs that cannot go on end with a remedy.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
@@ -87,10 +86,9 @@ TEST(Doubtful, AToleranceThatIsNotMetIsReported) {
   const Workplace here;
   string scene = "scene: 1\ngravity: [0, 0, 0]\nroom: {min: [-1, -1, -1], max: [1, 1, 1], restitution: 1}\nballs:\n";
   for (int k = 0; k < 12; ++k)
-    scene += "  b" + std::to_string(k) + ": {mass: 1, radius: 0.15, position: [" +
-             std::to_string(-0.75 + 0.5 * (k % 4)) + ", " + std::to_string(-0.5 + 0.5 * (k / 4)) + ", " +
-             std::to_string(0.01 * k) + "], velocity: [" + std::to_string(0.3 * (k % 3) - 0.2) + ", " +
-             std::to_string(0.25 * (k % 5) - 0.4) + ", 0.3]}\n";
+    scene += "  b" + to_string(k) + ": {mass: 1, radius: 0.15, position: [" + to_string(-0.75 + 0.5 * (k % 4)) + ", " +
+             to_string(-0.5 + 0.5 * (k / 4)) + ", " + to_string(0.01 * k) + "], velocity: [" +
+             to_string(0.3 * (k % 3) - 0.2) + ", " + to_string(0.25 * (k % 5) - 0.4) + ", 0.3]}\n";
   here.write("crowd.yaml", scene + "simulate: {duration: 80, tolerance: 1e-6}\n");
   const Finished run = here.carom({"run", "crowd.yaml"});
   EXPECT_EQ(run.code, 0) << run.err;
@@ -134,7 +132,7 @@ simulate: {duration: 1}
 
   const Json json = Json::parse(here.carom({"check", "three.yaml", "--accuracy", "--json"}).out);
   const double order = json.at("scenes").at(0).at("accuracy").at("order_m");
-  EXPECT_NEAR(order, 1.5 * std::sqrt(3.0) * (0.7 + 0.05 * std::sqrt(3.0)), 1e-12);
+  EXPECT_NEAR(order, 1.5 * sqrt(3.0) * (0.7 + 0.05 * sqrt(3.0)), 1e-12);
 
   // From one side there is one impact after the other in any order.
   here.write("row.yaml", R"(scene: 1

@@ -9,7 +9,7 @@ namespace {
 
 /// Two balls with so many pictures.
 string balls_with_frames(int frames) {
-  return two_balls("output: {energy: true, frames: {fps: " + std::to_string(frames - 1) + ", size: [32, 18]}}\n");
+  return two_balls("output: {energy: true, frames: {fps: " + to_string(frames - 1) + ", size: [32, 18]}}\n");
 }
 
 TEST(EditedScene, ReplacesItsRunWithoutForceAndLeavesNoStaleFile) {
@@ -151,7 +151,7 @@ TEST(UneditedSweep, LeavesTouchedFilesAlone) {
   forced.emplace_back("--force");
   ASSERT_EQ(here.carom(words).code, 0);
 
-  const std::pair<string, string> all[] = {
+  const pair<string, string> all[] = {
       {"sweep/summary.csv", "carom: balls.yaml: the folder sweep holds a comparison with a changed file, summary.csv"},
       {"sweep/comparison.xlsx",
        "carom: balls.yaml: the folder sweep holds a comparison with a changed file, comparison.xlsx"},

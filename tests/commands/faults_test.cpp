@@ -2,9 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -71,8 +69,8 @@ TEST(HangingMesh, IsLeftAtTheFirstSignal) {
   string mesh, face = "f";
   for (int k = 0; k < 32'000; ++k) {
     const double angle = 0.00019634954 * k, radius = k % 2 == 0 ? 1 : 0.9;  // a star
-    mesh += "v " + std::to_string(radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " 0\n";
-    face += " " + std::to_string(k + 1);
+    mesh += "v " + to_string(radius * std::cos(angle)) + " " + to_string(radius * std::sin(angle)) + " 0\n";
+    face += " " + to_string(k + 1);
   }
   here.write("star.obj", mesh + face + "\n");
 
@@ -99,7 +97,7 @@ TEST(Workbook, ThatHasNoRoomIsAnErrorAndLeavesNothing) {
 
   for (const size_t limit : {size_t{4}, blocks}) {
     const Finished compare =
-        here.shell("ulimit -f " + std::to_string(limit) + "; exec \"$CAROM\" compare a b -o out --progress none");
+        here.shell("ulimit -f " + to_string(limit) + "; exec \"$CAROM\" compare a b -o out --progress none");
     EXPECT_EQ(compare.code, 1);
     EXPECT_NE(compare.err.find("carom: cannot write out/comparison.xlsx: File too large\n"), string::npos)
         << compare.err;
@@ -159,7 +157,7 @@ TEST(FullDisk, EndsASweepAtItsFirstErrorWithOneRemedy) {
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy +
                                   "carom: sweep.yaml: 0 runs made, 12 not run\n"))
         << run.err;
-    EXPECT_EQ(std::ranges::count(run.err, '\n'), 3) << run.err;
+    EXPECT_EQ(ranges::count(run.err, '\n'), 3) << run.err;
     EXPECT_LE(here.read("log").size(), string("started\n").size() * std::stoul(jobs));
     EXPECT_EQ(here.carom({"sweep", "sweep.yaml", "-o", "out"}).code, 0);
   }
@@ -201,7 +199,7 @@ TEST(FullDisk, EndsARunOfSeveralScenesWithOneError) {
         here.carom({"run", "a.yaml", "b.yaml", "c.yaml", "d.yaml", "-o", "out", "-j", jobs, "--progress", "none"});
     EXPECT_EQ(run.code, 1);
     EXPECT_TRUE(run.err.ends_with(": cannot write: No space left on device\n" + remedy)) << run.err;
-    EXPECT_EQ(std::ranges::count(run.err, '\n'), 2) << run.err;
+    EXPECT_EQ(ranges::count(run.err, '\n'), 2) << run.err;
     EXPECT_TRUE(run.out.starts_with("4 scenes: 1 failed, 3 not run, in ")) << run.out;
     EXPECT_LE(here.read("log").size(), string("started\n").size() * std::stoul(jobs));
   }

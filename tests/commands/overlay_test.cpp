@@ -7,7 +7,7 @@
 namespace carom::testing {
 namespace {
 
-using Files = std::map<string, string>;
+using Files = map<string, string>;
 using Words = vector<string>;
 
 const string small_frames =

@@ -9,7 +9,7 @@
 namespace carom::testing {
 namespace {
 
-using Files = std::map<string, string>;
+using Files = map<string, string>;
 using Words = vector<string>;
 
 Files charts_in(const Workplace& here, const string& folder) {

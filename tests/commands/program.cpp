@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 Workplace::Workplace() {
   string name = ::testing::TempDir() + "carom_XXXXXX";
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  if (mkdtemp(name.data()) == nullptr) throw runtime_error("no temporary folder");
   folder_ = name;
 }
 
@@ -45,8 +45,8 @@ bool Workplace::has(const string& name) const {
   return fs::exists(path(name));
 }
 
-std::map<string, string> Workplace::files(const string& name) const {
-  std::map<string, string> found;
+map<string, string> Workplace::files(const string& name) const {
+  map<string, string> found;
   if (!has(name)) return found;
   for (const auto& entry : fs::recursive_directory_iterator(path(name))) {
     if (!entry.is_regular_file()) continue;

@@ -1,7 +1,6 @@
 #pragma once
 // The real program as a subprocess, in its own folder.
 #include <chrono>
-#include <map>
 
 #include "std.h"
 
@@ -24,7 +23,7 @@ class Workplace {
   string read(const string& name) const;  // empty if it is not there
   bool has(const string& name) const;
   /// Every file below `name`, by path: its bytes.
-  std::map<string, string> files(const string& name = ".") const;
+  map<string, string> files(const string& name = ".") const;
   string path(const string& name) const { return folder_ + "/" + name; }
 
   /// Runs `carom words...` here, stdin empty, stdout and stderr files, NO_COLOR not set.
@@ -43,7 +42,7 @@ class Workplace {
 };
 
 /// The same files without the run's own manifest, which has times.
-inline std::map<string, string> without_manifest(std::map<string, string> files) {
+inline map<string, string> without_manifest(map<string, string> files) {
   files.erase("manifest.json");
   return files;
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <png.h>
 
-#include <algorithm>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -14,7 +13,7 @@
 namespace carom::testing {
 namespace {
 
-using Files = std::map<string, string>;
+using Files = map<string, string>;
 using Words = vector<string>;
 
 const string frames = "output: {collisions: true, frames: {fps: 4, size: [64, 36], samples: 1}}\n";
@@ -305,7 +304,7 @@ TEST(Render, OfACameraThatFramesTheMotionHasTheBytesOfARun) {
   ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", "camera={fit: motion, fov: 20}", "-o", "fresh"}).code, 0);
 
   for (int i = 0; i <= 4; ++i) {
-    const string frame = "/frames/frame_0000" + std::to_string(i) + ".png";
+    const string frame = "/frames/frame_0000" + to_string(i) + ".png";
     EXPECT_EQ(here.read("render" + frame), here.read("fresh" + frame));
     EXPECT_FALSE(here.read("render" + frame).empty());
     EXPECT_NE(here.read("render" + frame), here.read("run" + frame));
@@ -430,8 +429,8 @@ TEST(Flights, AreReadByAnotherProgramToTheLastBit) {
     ASSERT_EQ(run.code, 0) << run.err;
 
     std::istringstream table(here.read(scene + "/trajectory.csv"));
-    std::map<string, size_t> number;  // of each body, all of which are there at time 0
-    vector<double> message;           // six numbers a body
+    map<string, size_t> number;  // of each body, all of which are there at time 0
+    vector<double> message;      // six numbers a body
     string line, time;
     std::getline(table, line);
 

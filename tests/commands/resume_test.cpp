@@ -84,7 +84,7 @@ TEST(ResumedRun, KeepsWhatItHasWhereFilesCannotBeOpened) {
   const Workplace here;
   ASSERT_EQ(stop_pile(here).code, 143);
   for (int files = 5; files < 12; ++files)
-    here.shell("ulimit -n " + std::to_string(files) + "; \"$CAROM\" run pile.yaml -o run");
+    here.shell("ulimit -n " + to_string(files) + "; \"$CAROM\" run pile.yaml -o run");
   const Finished done = here.carom(run_pile);
   EXPECT_EQ(done.code, 0) << done.err;
   EXPECT_NE(done.err.find("goes on at "), string::npos) << done.err;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "std.h"
 
 namespace carom {
 namespace {

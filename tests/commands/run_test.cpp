@@ -193,7 +193,7 @@ TEST(Run, OnlyRestrictsAndAddsOutputs) {
   EXPECT_EQ(here.carom({"run", "none.yaml", "--only", "trajectory"}).code, 0);
 
   const string trajectory = here.read("output/none/trajectory.csv");
-  EXPECT_EQ(std::ranges::count(trajectory, '\n'),
+  EXPECT_EQ(ranges::count(trajectory, '\n'),
             1 + 31 * 2);  // every 1/30 s over 1 s, ends included
   EXPECT_FALSE(here.has("output/none/collisions.csv"));
 }
@@ -281,7 +281,7 @@ TEST(Run, ScenesAtOnceAreReportedInTheirOrderAndHaveTheSameBytes) {
   EXPECT_EQ(one[3]["status"], "up to date");
 
   // With the same files.
-  std::map<string, string> files[2] = {here.files("1"), here.files("3")};
+  map<string, string> files[2] = {here.files("1"), here.files("3")};
   for (auto& some : files) std::erase_if(some, [](const auto& file) { return file.first.ends_with("manifest.json"); });
   EXPECT_GT(files[0].size(), 110u);
   EXPECT_EQ(files[0], files[1]);

@@ -1,7 +1,6 @@
 // carom sweep with samples, repeats and measures of the command line, and with invalid scenarios left out.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
@@ -11,7 +10,7 @@ namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
-using Files = std::map<string, string>;
+using Files = map<string, string>;
 
 /// The files that must not depend on how a sweep was run: without the runs' manifests, which have times.
 Files lasting(const Workplace& here, const string& folder) {
@@ -108,7 +107,7 @@ TEST(SkipInvalid, LeavesOutInvalidScenariosAndKeepsTheIdsOfTheOthers) {
   EXPECT_EQ(here.read("output/masses/skipped.csv"), "run,error\nr0001,`mass` is 0\nr0003,`mass` is -1\n");
 
   const string rows = here.read("output/masses/summary.csv");
-  EXPECT_EQ(std::ranges::count(rows, '\n'), 3);
+  EXPECT_EQ(ranges::count(rows, '\n'), 3);
   EXPECT_NE(rows.find("\nr0004,"), string::npos);
 
   // They are named again, and nothing is run.

@@ -1,8 +1,6 @@
 // `start` by the real program: a run goes on where a former run was.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -94,8 +92,7 @@ TEST(Start, GoesOnAlongTheParabolasOfARun) {
 
   for (const char* at : {"0", "0.3", "0.37", "1.2"}) {
     const double from = std::strtod(at, nullptr);
-    here.write("second.yaml",
-               many_balls(every_state + "start: {run: first, at: " + at + "}\n", std::to_string(2 - from)));
+    here.write("second.yaml", many_balls(every_state + "start: {run: first, at: " + at + "}\n", to_string(2 - from)));
     expect_run(here, {"run", "second.yaml", "-o", string("second") + at});
     const string folder = string("second") + at;
     // Measured: 1.6e-14.
@@ -192,8 +189,7 @@ TEST(Start, LeavesASceneThatRunsAlone) {
   expect_run(here, {"run", "second/scene.yaml", "-o", "third"});
 
   EXPECT_EQ(here.read("second/scene.yaml").find("start:"), string::npos);
-  std::map<string, string> second = without_manifest(here.files("second")),
-                           third = without_manifest(here.files("third"));
+  map<string, string> second = without_manifest(here.files("second")), third = without_manifest(here.files("third"));
 
   // These name the run by its folder.
   second.erase("summary.csv");

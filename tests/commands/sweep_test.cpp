@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
@@ -15,7 +13,7 @@ namespace carom::testing {
 namespace {
 
 using Json = nlohmann::json;
-using Files = std::map<string, string>;
+using Files = map<string, string>;
 
 const string grid =
     "sweep: 1\ntitle: Offsets\nbase: balls.yaml\n"
@@ -61,8 +59,8 @@ vector<string> lines_of(const string& text) {
 }
 
 /// The cells of summary.csv, a map from column to text a run.
-vector<std::map<string, string>> rows_of(const string& text) {
-  vector<std::map<string, string>> rows;
+vector<map<string, string>> rows_of(const string& text) {
+  vector<map<string, string>> rows;
   const auto cells = [](const string& line) {
     vector<string> out(1);
     for (const char c : line) c == ',' ? out.emplace_back() : out.back() += c;
@@ -682,8 +680,8 @@ TEST(SweepScenes, GasPressureSeparatesChanceFromSize) {
   ASSERT_EQ(rows.size(), 3u);
   for (const auto& row : rows) {
     const double sd = std::stod(row.at("body_body.sd")), n = std::stod(row.at("body_body.mean"));
-    EXPECT_GT(sd, std::sqrt(n) / 3) << n;
-    EXPECT_LT(sd, std::sqrt(n) * 3) << n;
+    EXPECT_GT(sd, sqrt(n) / 3) << n;
+    EXPECT_LT(sd, sqrt(n) * 3) << n;
   }
 }
 

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace carom {
 namespace {
 
@@ -39,7 +37,7 @@ TEST(Text, WaitsHaveReadableUnits) {
   EXPECT_EQ(wait_text(59.4), "59 s");
   EXPECT_EQ(wait_text(59.6), "1 min 0 s");
   EXPECT_EQ(wait_text(7500), "2 h 5 min");
-  EXPECT_EQ(wait_text(std::numeric_limits<double>::infinity()), "-");
+  EXPECT_EQ(wait_text(infinity), "-");
   EXPECT_EQ(wait_text(-1), "-");
 }
 

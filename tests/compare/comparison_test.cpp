@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "compare/comparison_testing.h"
 #include "compare/number_look.h"
 #include "compare/outcomes.h"
@@ -26,7 +23,7 @@ class ComparisonOfSix : public ::testing::Test {
     int number = 0;
     for (const char* e : {"0.5", "0.75", "1"})
       for (const char* mass : {"10", "20"}) {
-        const string id = "r" + std::to_string(++number);
+        const string id = "r" + to_string(++number);
         place->run(two_balls, id, {string("restitution.default=") + e, string("balls.red.mass=") + mass});
         runs.push_back({id, *place / id, {e, mass}});
       }
@@ -126,19 +123,19 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
   const auto csv = rows_of(place->read("out/summary.csv"));
 
   // The columns of the table, by their heads.
-  const vector<std::pair<string, string>> first = {{"run", "run"},
-                                                   {"restitution.default", "restitution.default"},
-                                                   {"balls.red.mass (kg)", "balls.red.mass"},
-                                                   {"energy lost (J)", "energy_lost_J"},
-                                                   {"collisions", "collisions"},
-                                                   {"balls.red speed (m/s)", "balls.red.speed_m_per_s"},
-                                                   {"balls.blue kinetic energy (J)", "balls.blue.kinetic_J"}};
+  const vector<pair<string, string>> first = {{"run", "run"},
+                                              {"restitution.default", "restitution.default"},
+                                              {"balls.red.mass (kg)", "balls.red.mass"},
+                                              {"energy lost (J)", "energy_lost_J"},
+                                              {"collisions", "collisions"},
+                                              {"balls.red speed (m/s)", "balls.red.speed_m_per_s"},
+                                              {"balls.blue kinetic energy (J)", "balls.blue.kinetic_J"}};
 
   const Json& heads = summary["rows"][1];
   ASSERT_GT(heads.size(), first.size());
   for (size_t k = 0; k < first.size(); ++k) {
     EXPECT_EQ(heads[k], first[k].first);
-    const auto column = static_cast<size_t>(std::ranges::find(csv[0], first[k].second) - csv[0].begin());
+    const auto column = static_cast<size_t>(ranges::find(csv[0], first[k].second) - csv[0].begin());
     for (size_t i = 1; i < csv.size(); ++i) {
       const Json& value = summary["rows"][i + 1][k];
       if (k == 0)
@@ -157,11 +154,11 @@ TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
     bool same = true;
     for (size_t i = 2; i < csv.size(); ++i) same = same && csv[i][k] == csv[1][k];
 
-    const bool is_first = std::ranges::any_of(first, [&](auto& one) { return one.second == csv[0][k]; });
+    const bool is_first = any_of(first, [&](auto& one) { return one.second == csv[0][k]; });
     const string label = k < 2 ? csv[0][k] : label_of(csv[0][k]);
     EXPECT_EQ(folded.find("; " + label + ": ") != string::npos || k == 1, same && !is_first && !csv[1][k].empty())
         << label;
-    const bool is_column = std::ranges::find(heads, Json(label)) != heads.end();
+    const bool is_column = contains(heads, Json(label));
     EXPECT_TRUE(is_first || is_column != same) << label;
   }
 
@@ -287,7 +284,7 @@ TEST_F(ComparisonOfSix, AFailedRunHasItsParametersAndNothingElse) {
   const Json &heads = rows_of_sheet[rows_of_sheet.size() - 3], &row = rows_of_sheet[rows_of_sheet.size() - 1];
   EXPECT_EQ(row[1], -0.5);
   EXPECT_EQ(row[2], "=1+1");
-  EXPECT_EQ(row[static_cast<size_t>(std::ranges::find(heads, "status") - heads.begin())], "failed");
+  EXPECT_EQ(row[static_cast<size_t>(ranges::find(heads, "status") - heads.begin())], "failed");
 }
 
 TEST_F(ComparisonOfSix, TextIsNoFormula) {
@@ -338,9 +335,9 @@ TEST_F(ComparisonOfSix, ManyRunsAreStreamed) {
   SLOW_WITH_SANITIZERS();
   vector<ComparedRun> many;
   for (int i = 0; i < 2100; ++i)
-    many.push_back({"r" + std::to_string(i),
+    many.push_back({"r" + to_string(i),
                     runs[static_cast<size_t>(i % 6)].folder,
-                    {std::to_string(i / 6) + ".5", runs[static_cast<size_t>(i % 6)].values[1]}});
+                    {to_string(i / 6) + ".5", runs[static_cast<size_t>(i % 6)].values[1]}});
 
   place->compare(plan, many, "many");
   const Json sheets = place->workbook("many", true)["sheets"];
@@ -428,7 +425,7 @@ TEST(Collisions, OfEachRunHaveTheSameShareOfTheSheet) {
   ComparisonPlan plan;
   plan.collisions = true;
   vector<ComparedRun> runs;
-  for (int i = 0; i < 100; ++i) runs.push_back({"r" + std::to_string(i), place / "gas", {}});
+  for (int i = 0; i < 100; ++i) runs.push_back({"r" + to_string(i), place / "gas", {}});
   ASSERT_GT(rows_of(place.read("gas/collisions.csv")).size(), 201u);
   place.compare(plan, runs, "out");
 
@@ -476,8 +473,8 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
   for (int e = 0; e < 25; ++e)
     for (int z = 0; z < 40; ++z)
       for (int seed = 0; seed < 2; ++seed)
-        points.push_back(outcomes.add(
-            points.size(), {"r", "", {std::to_string(e), std::to_string(z) + ".5", std::to_string(seed)}}, false, {}));
+        points.push_back(
+            outcomes.add(points.size(), {"r", "", {to_string(e), to_string(z) + ".5", to_string(seed)}}, false, {}));
   outcomes.finish();
 
   const ChosenScenarios chosen = chosen_scenarios(plan, outcomes, points, false);
@@ -486,12 +483,12 @@ TEST(ChosenScenarios, AreSpreadOverTheGridAndNamedByIt) {
   // The four corners are among them.
   for (const char* corner : {"restitution = 0, position.z = 0.5 m", "restitution = 0, position.z = 39.5 m",
                              "restitution = 24, position.z = 0.5 m", "restitution = 24, position.z = 39.5 m"})
-    EXPECT_NE(std::ranges::find(chosen.names, corner), chosen.names.end()) << corner;
+    EXPECT_NE(ranges::find(chosen.names, corner), chosen.names.end()) << corner;
 
   // Both repeats of a scenario belong to it.
   EXPECT_EQ(chosen.of_run[0], 0u);
   EXPECT_EQ(chosen.of_run[1], 0u);
-  EXPECT_EQ(std::ranges::count(chosen.of_run, ChosenScenarios::none), 2000 - 16);
+  EXPECT_EQ(ranges::count(chosen.of_run, ChosenScenarios::none), 2000 - 16);
 }
 
 TEST(ShortNames, AreAsLongAsNeededToTellPathsApart) {
@@ -507,7 +504,7 @@ TEST(Spread, IsThatOfTheNumbers) {
   for (const double value : {1.0, 2.0, 4.0, std::nan("")}) spread.add(value);
   EXPECT_EQ(spread.count(), 3u);
   EXPECT_DOUBLE_EQ(spread.mean(), 7.0 / 3);
-  EXPECT_DOUBLE_EQ(spread.sd(), std::sqrt(7.0 / 3));  // (16 + 1 + 25) / 9 / 2
+  EXPECT_DOUBLE_EQ(spread.sd(), sqrt(7.0 / 3));  // (16 + 1 + 25) / 9 / 2
   EXPECT_EQ(spread.min(), 1);
   EXPECT_EQ(spread.max(), 4);
   Spread one;
@@ -529,7 +526,7 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
   // The seed varies slowest: a scenario's runs are not adjacent.
   for (const char* seed : {"1", "2", "3"})
     for (const char* e : {"0.9", "1"}) {
-      const string id = "r" + std::to_string(runs.size() + 1);
+      const string id = "r" + to_string(runs.size() + 1);
       const RunResult result = place.run(gas, id, {string("seed=") + seed, string("restitution.default=") + e});
       if (string(e) == "0.9") speeds.push_back(result.summary.max_speed);
       runs.push_back({id, place / id, {e, seed}});
@@ -547,9 +544,9 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
   EXPECT_EQ(rows[1][0], "0.9");
   EXPECT_EQ(rows[1][1], "3");
   EXPECT_NEAR(std::stod(rows[1][2]), mean, 1e-14);
-  EXPECT_NEAR(std::stod(rows[1][3]), std::sqrt(squares / 2), 1e-14);
-  EXPECT_EQ(std::stod(rows[1][4]), *std::ranges::min_element(speeds));
-  EXPECT_EQ(std::stod(rows[1][5]), *std::ranges::max_element(speeds));
+  EXPECT_NEAR(std::stod(rows[1][3]), sqrt(squares / 2), 1e-14);
+  EXPECT_EQ(std::stod(rows[1][4]), *ranges::min_element(speeds));
+  EXPECT_EQ(std::stod(rows[1][5]), *ranges::max_element(speeds));
 
   // In the workbook: a sheet, and error bars.
   const Json book = place.workbook("out");
@@ -558,7 +555,7 @@ TEST(Repeats, AreARowAScenarioWithMeansAndErrorBars) {
   const Json& series = book["sheets"]["Compare"]["charts"][0]["series"];
   ASSERT_EQ(series.size(), 3u);  // the means, and a bar for each
   EXPECT_TRUE(series[0]["bar"].is_null());
-  EXPECT_NEAR(series[1]["bar"].get<double>(), std::sqrt(squares / 2), 1e-12);
+  EXPECT_NEAR(series[1]["bar"].get<double>(), sqrt(squares / 2), 1e-12);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ class Place {
  public:
   Place() {
     string name = (std::filesystem::temp_directory_path() / "carom-study-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    if (mkdtemp(name.data()) == nullptr) throw runtime_error("no temporary folder");
     path_ = name;
   }
   ~Place() { std::filesystem::remove_all(path_); }
@@ -61,7 +61,7 @@ class Place {
     const string command = "/usr/bin/python3 '" SOURCE_DIR "/tests/compare/workbook_as_json.py' '" +
                            (*this / (out + "/comparison.xlsx")) + (brief ? "' brief" : "'") + " > '" +
                            (*this / "book.json") + "'";
-    if (std::system(command.c_str()) != 0) throw std::runtime_error("openpyxl cannot read the workbook");
+    if (std::system(command.c_str()) != 0) throw runtime_error("openpyxl cannot read the workbook");
     return nlohmann::json::parse(read("book.json"));
   }
 

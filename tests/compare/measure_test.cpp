@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <regex>
 
 #include "compare/compared_run.h"
@@ -101,7 +100,7 @@ string marked(const Place& place, const string& measure) {
 
 TEST(OwnMeasures, ErrorsMarkTheFaultyPartOfAnExpression) {
   const Place place;
-  const std::pair<string, string> all[] = {
+  const pair<string, string> all[] = {
       {"= 1 + let.q", "let.q"},
       {"= hits(red) + nothing", "nothing"},
       {"=  2 * hits(red, rde) / 3", "hits(red, rde)"},
@@ -207,20 +206,20 @@ TEST(MeasureValues, OfAFreeBodyAreItsMotions) {
 
 TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
   const Place place;
-  const vector<std::pair<string, string>> all = {{"hits(THING)", "0"},
-                                                 {"hits(THING, v)", "0"},
-                                                 {"count(KIND.THING.x_m < 9)", "0"},
-                                                 {"first(THING)", "nan"},
-                                                 {"min(KIND.THING.x_m)", "nan"},
-                                                 {"max(KIND.THING.x_m)", "nan"},
-                                                 {"= hits(THING) + 1", "1"},
-                                                 // Of strings, planes and regions.
-                                                 {"hits(s)", "0"},
-                                                 {"hits(p)", "0"},
-                                                 {"regions.r.entries", "0"},
-                                                 {"regions.r.inside", "0"},
-                                                 {"regions.r.first_s", "nan"},
-                                                 {"time_of_max(KIND.THING.y_m)", "nan"}};
+  const vector<pair<string, string>> all = {{"hits(THING)", "0"},
+                                            {"hits(THING, v)", "0"},
+                                            {"count(KIND.THING.x_m < 9)", "0"},
+                                            {"first(THING)", "nan"},
+                                            {"min(KIND.THING.x_m)", "nan"},
+                                            {"max(KIND.THING.x_m)", "nan"},
+                                            {"= hits(THING) + 1", "1"},
+                                            // Of strings, planes and regions.
+                                            {"hits(s)", "0"},
+                                            {"hits(p)", "0"},
+                                            {"regions.r.entries", "0"},
+                                            {"regions.r.inside", "0"},
+                                            {"regions.r.first_s", "nan"},
+                                            {"time_of_max(KIND.THING.y_m)", "nan"}};
 
   const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\n"
@@ -233,7 +232,7 @@ TEST(MeasureValues, OfThingsThatAreRepeatedNoTimeAreThoseOfAnEmptyGroup) {
       "simulate: {duration: 1, stop: [{region: r}]}\noutput: {collisions: true}\n";
 
   // Each measure of a ball, and of a group.
-  for (const auto& [kind, thing] : {std::pair("balls", "w"), std::pair("groups", "g")}) {
+  for (const auto& [kind, thing] : {pair("balls", "w"), pair("groups", "g")}) {
     vector<string> names;
     for (const auto& [name, value] : all)
       names.push_back(

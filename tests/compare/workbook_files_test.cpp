@@ -34,7 +34,7 @@ Descriptor archive(const Place& place, const vector<string>& parts) {
   const zipFile zip = zipOpen(path.c_str(), APPEND_STATUS_CREATE);
   int number = 0;
   for (const string& part : parts) {
-    zipOpenNewFileInZip(zip, std::to_string(number++).c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
+    zipOpenNewFileInZip(zip, to_string(number++).c_str(), nullptr, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
     zipWriteInFileInZip(zip, part.data(), static_cast<unsigned>(part.size()));
     zipCloseFileInZip(zip);
   }

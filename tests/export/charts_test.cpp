@@ -1,9 +1,7 @@
 // The numbers that the charts of a run show, and their files.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "export/export_testing.h"
 #include "export/plot_axis.h"
@@ -73,7 +71,7 @@ TEST(SpeedsChart, MaxwellsCurveIntegratesToTheNumberOfBodiesInEveryDimension) {
       const SpeedsChart speeds = speeds_of(scene, dimensions);
       const Plot plot = speeds.plot();
       ASSERT_EQ(plot.series.size(), 2u);
-      EXPECT_EQ(plot.series[1].name, "Maxwell, " + std::to_string(dimensions) + "-D");
+      EXPECT_EQ(plot.series[1].name, "Maxwell, " + to_string(dimensions) + "-D");
       // The chart ends where the curve has 1 % of its peak. Measured: 0.8 % of the bodies are beyond.
       EXPECT_NEAR(integral_of_curve(plot.series[1]) / speeds.histogram().width, 600, 0.01 * 600) << dimensions;
       double bodies = 0;
@@ -266,7 +264,7 @@ TEST(Charts, OfARunAreFilesOfItsFolderWithTheSameBytesEachTime) {
   run(scene, here / "a");
   run(scene, here / "b");
 
-  std::set<string> listed;
+  set<string> listed;
   const auto manifest = nlohmann::json::parse(read(here / "a/manifest.json"));
   for (const auto& file : manifest["files"]) listed.insert(file["name"]);
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -51,7 +50,7 @@ inline vector<string> names_in(const string& folder) {
   if (fs::exists(folder))
     for (const auto& entry : fs::recursive_directory_iterator(folder))
       names.push_back(fs::relative(entry.path(), folder).string());
-  std::ranges::sort(names);
+  ranges::sort(names);
   return names;
 }
 

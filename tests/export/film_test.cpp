@@ -8,7 +8,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 
 #include "export/export_testing.h"
@@ -75,7 +74,7 @@ TEST(Film, IsWhatEveryPlayerPlays) {
 TEST(Film, FrameRatesAreKept) {
   TempFolder temp;
   Scene scene = scene_with_film();
-  for (const auto& [fps, expected] : vector<std::pair<double, string>>{
+  for (const auto& [fps, expected] : vector<pair<double, string>>{
            {30, "30/1\n"},
            {29.97, "2997/100\n"},
 
@@ -181,13 +180,12 @@ TEST(Film, FramesAndFilmOfOneKindAreDrawnOnce) {
 TEST(Film, OfSpeedAnEighthLastsEightTimesAsLong) {
   TempFolder temp;
   Scene scene = scene_with_film();
-  for (const auto& [speed, frames] : vector<std::pair<double, int>>{{1, 6}, {0.125, 41}, {2, 3}}) {
+  for (const auto& [speed, frames] : vector<pair<double, int>>{{1, 6}, {0.125, 41}, {2, 3}}) {
     scene.output.video->speed = speed;
     run(scene, temp / "run");
     // From the first picture to the last: 0.2 s of motion.
     EXPECT_EQ((frames - 1) / 25.0 * speed, speed == 2 ? 0.16 : 0.2);
-    EXPECT_EQ(probe(temp / "run/animation.mp4", "r_frame_rate,nb_read_frames"),
-              "25/1\n" + std::to_string(frames) + "\n");
+    EXPECT_EQ(probe(temp / "run/animation.mp4", "r_frame_rate,nb_read_frames"), "25/1\n" + to_string(frames) + "\n");
   }
 }
 
@@ -204,7 +202,7 @@ TEST(Film, HasAWindowOfItsOwnAndBeginsThere) {
 TEST(Film, AGifHasEveryPictureForItsTime) {
   TempFolder temp;
   Scene scene = scene_with_film("film.gif");
-  for (const auto& [fps, facts] : vector<std::pair<double, string>>{
+  for (const auto& [fps, facts] : vector<pair<double, string>>{
            {50, "0.220000\n11\n"}, {25, "0.240000\n6\n"}, {12.5, "0.240000\n3\n"}, {100.0 / 3, "0.210000\n7\n"}}) {
     scene.output.video->fps = fps;
     run(scene, temp / "run");
@@ -371,7 +369,7 @@ TEST(Film, AnyFileNameIsJustAName) {
     run(scene_with_film(name), temp / "run");
     EXPECT_EQ(names_in(temp / "run"), ([&] {
                 vector<string> names = {name, "manifest.json", "scene.yaml", "summary.csv"};
-                std::ranges::sort(names);
+                ranges::sort(names);
                 return names;
               }()));
   }
@@ -434,7 +432,7 @@ TEST_F(ScriptedFfmpeg, AKilledOneIsReported) {
 }
 
 TEST_F(ScriptedFfmpeg, HalfAFilmIsReported) {
-  EXPECT_EQ(film("head -c " + std::to_string(3 * 320 * 180 * 3 / 2) + " | " + real() + "; cat >/dev/null", 5),
+  EXPECT_EQ(film("head -c " + to_string(3 * 320 * 180 * 3 / 2) + " | " + real() + "; cat >/dev/null", 5),
             "cannot make the film out/animation.mp4: ffmpeg wrote 3 of 5 frames");
 }
 

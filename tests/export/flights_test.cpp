@@ -3,9 +3,6 @@
 
 #include <fcntl.h>
 
-#include <cmath>
-#include <limits>
-
 #include "export/export_testing.h"
 #include "export/same_piece.h"
 #include "files/hash.h"
@@ -338,7 +335,6 @@ TEST(Flights, WithAChangedByteAreRefused) {
 TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
   const TempFolder folder;
   const Scene scene = small_scene();
-  const double infinite = std::numeric_limits<double>::infinity();
 
   const auto refused_with = [&](size_t which, const function<void(PathPiece&)>& change) {
     vector<PathPiece> changed = pieces();
@@ -349,22 +345,22 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
 
   const size_t first = 0, step = 6, curve = 7, part = 8, joint = 9, fading = 10, frame = 13;
   EXPECT_FALSE(refused_with(first, [](PathPiece&) {}));
-  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.from = infinite; }));
-  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.hi = -infinite; }));
-  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.lo = infinite; }));
+  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.from = infinity; }));
+  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.hi = -infinity; }));
+  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start.lo = infinity; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.start = {1.7e308, 1.7e308}; }));
   EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.x[0] = std::nan(""); }));
-  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.v[1] = infinite; }));
-  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.a[2] = -infinite; }));
-  EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.until.hi = infinite; }));
-  EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.kick[0] = infinite; }));
+  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.v[1] = infinity; }));
+  EXPECT_TRUE(refused_with(first, [&](PathPiece& piece) { piece.a[2] = -infinity; }));
+  EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.until.hi = infinity; }));
+  EXPECT_TRUE(refused_with(step, [&](PathPiece& piece) { piece.kick[0] = infinity; }));
   EXPECT_TRUE(refused_with(part, [&](PathPiece& piece) { piece.part_of = piece.body; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.mass = 0; }));
 
-  EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.radius = infinite; }));
+  EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.radius = infinity; }));
   EXPECT_TRUE(refused_with(joint, [&](PathPiece& piece) { piece.half[1] = -1; }));
-  EXPECT_TRUE(refused_with(fading, [&](PathPiece& piece) { piece.fade = infinite; }));
-  EXPECT_TRUE(refused_with(frame, [&](PathPiece& piece) { piece.rounding = infinite; }));
+  EXPECT_TRUE(refused_with(fading, [&](PathPiece& piece) { piece.fade = infinity; }));
+  EXPECT_TRUE(refused_with(frame, [&](PathPiece& piece) { piece.rounding = infinity; }));
 
   const auto bend = [](PathPiece& piece, const function<void(PolynomialPath&)>& change) {
     auto other = std::make_shared<PolynomialPath>(*piece.curve);
@@ -374,9 +370,9 @@ TEST(Flights, WithNumbersThatAreNotFiniteAreRefused) {
 
   EXPECT_TRUE(refused_with(curve, [&](PathPiece& piece) { bend(piece, [](auto& path) { path.length = 0; }); }));
   EXPECT_TRUE(refused_with(
-      curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.displacement[6][1] = infinite; }); }));
+      curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.displacement[6][1] = infinity; }); }));
   EXPECT_TRUE(
-      refused_with(curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.ahead[1] = infinite; }); }));
+      refused_with(curve, [&](PathPiece& piece) { bend(piece, [&](auto& path) { path.ahead[1] = infinity; }); }));
 }
 
 TEST(Flights, WithAnImpactOfABodyWithoutAPathAreDamaged) {

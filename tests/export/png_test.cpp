@@ -148,7 +148,7 @@ TEST(Frames, FrameIIsTickIAndKeepsItsNumber) {
             (vector<string>{"frames", "frames/frame_00003.png", "frames/frame_00004.png", "frames/frame_00005.png",
                             "manifest.json", "scene.yaml", "summary.csv"}));
   for (int i = 3; i <= 5; ++i)
-    EXPECT_TRUE(decode(read(temp / "run/frames/frame_0000" + std::to_string(i) + ".png")).pixels ==
+    EXPECT_TRUE(decode(read(temp / "run/frames/frame_0000" + to_string(i) + ".png")).pixels ==
                 picture({32, 18}, i).pixels);
 }
 
@@ -273,7 +273,7 @@ TEST(Frames, AnyNumberOfThreadsWritesTheSameFiles) {
   ASSERT_EQ(one.size(), 40U);
 
   for (const size_t threads : {2U, 5U}) {
-    const string path = temp / std::to_string(threads);
+    const string path = temp / to_string(threads);
     const vector<FileRecord> several = frames_by(threads, path);
     ASSERT_EQ(several.size(), one.size());
     for (size_t i = 0; i < one.size(); ++i) {

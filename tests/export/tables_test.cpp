@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 #include "export/export_testing.h"
 #include "physics/world.h"
 #include "scene/scene.h"
@@ -28,7 +25,7 @@ TEST(Csv, NumbersAreTheShortestThatReadBack) {
   EXPECT_EQ(number(0.1 + 0.2), "0.30000000000000004");
   EXPECT_EQ(number(-0.0), "0");
   EXPECT_EQ(number(std::nan("")), "");
-  EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "");
+  EXPECT_EQ(number(infinity), "");
   EXPECT_EQ(number(-std::numeric_limits<double>::max()), "-1.7976931348623157e+308");  // the longest: number_size
   EXPECT_EQ(number(-std::numeric_limits<double>::denorm_min()), "-5e-324");
 }
@@ -255,7 +252,7 @@ TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {
 
   run(scene, temp / "run");
   const string text = read(temp / "run/trajectory.csv");
-  EXPECT_EQ(std::ranges::count(text, '\n'), 200'001);
+  EXPECT_EQ(ranges::count(text, '\n'), 200'001);
   EXPECT_TRUE(text.ends_with("\n0,gas.199999,0,0,0,0,0,0\n"));
 }
 

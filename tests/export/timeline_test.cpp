@@ -3,9 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 namespace carom {
 namespace {
 
@@ -35,7 +32,7 @@ TEST(Ticks, OneOverAWholeNumberCountsExactly) {
 }
 
 TEST(Ticks, AnyOtherIntervalIsMultipliedNotSummed) {
-  const double interval = std::sqrt(2) / 100;
+  const double interval = sqrt(2) / 100;
   const Ticks ticks = Ticks::every(interval, 1e4);
   EXPECT_EQ(ticks.at(100'000), 100'000 * interval);
 }
@@ -59,7 +56,7 @@ TEST(Ticks, TheLastOneIsTheDurationAndNoneIsBesideIt) {
   EXPECT_EQ(Ticks::every(0.01, 2).count(), 201);
   EXPECT_EQ(Ticks::every(1.0 / 30, 2).count(), 61);
   EXPECT_EQ(Ticks::every(1.0 / 3, 1e6).count(), 3'000'001);
-  const double odd = std::sqrt(2) / 100;
+  const double odd = sqrt(2) / 100;
   EXPECT_EQ(Ticks::every(odd, 1000 * odd).count(), 1001);
   EXPECT_EQ(Ticks::every(odd, std::nextafter(1000 * odd, 100)).count(), 1001);
 }
@@ -89,7 +86,7 @@ TEST(Ticks, SenselessIntervalsAreRefused) {
   EXPECT_THROW(Ticks::every(0, 1), std::invalid_argument);
   EXPECT_THROW(Ticks::every(-1, 1), std::invalid_argument);
   EXPECT_THROW(Ticks::every(std::nan(""), 1), std::invalid_argument);
-  EXPECT_THROW(Ticks::every(1, std::numeric_limits<double>::infinity()), std::invalid_argument);
+  EXPECT_THROW(Ticks::every(1, infinity), std::invalid_argument);
   EXPECT_THROW(Ticks::rate(0, 0, 1), std::invalid_argument);
   EXPECT_THROW(Ticks::film(0, 1, 0, 1), std::invalid_argument);
   EXPECT_THROW(Ticks::film(1, 0, 0, 1), std::invalid_argument);
@@ -174,7 +171,7 @@ TEST(Ticks, AreWrittenWithAllTheirDecimalsOrToATwentiethOfTheirInterval) {
 
   for (const double fps : {24.0, 30.0, 60.0, 240.0, 144.0}) {
     const Ticks ticks = Ticks::rate(fps, 0, 3);
-    const double unit = std::pow(10, -ticks.decimals());
+    const double unit = pow(10, -ticks.decimals());
     EXPECT_LE(0.5 * unit, 0.05 / fps) << fps;
   }
 }

@@ -5,14 +5,11 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <csignal>
 #include <mutex>
-#include <set>
-#include <stdexcept>
 #include <thread>
 
 #include "export/export_testing.h"
@@ -28,7 +25,7 @@ using namespace testing_export;
 
 TEST(Conveyor, UsesWhatIsSentInOrder) {
   vector<int> used;
-  std::set<const int*> items;
+  set<const int*> items;
   Conveyor<int> conveyor(
       [&](int& item) {
         used.push_back(item);
@@ -66,7 +63,7 @@ TEST(Conveyor, SeveralThreadsUseEachItemOnceAndAtTheSameTime) {
   std::mutex mutex;
   std::condition_variable changed;
   int in_use = 0, most = 0;
-  std::set<int> used;
+  set<int> used;
   Conveyor<int> conveyor(
       [&](int& item) {
         std::unique_lock lock(mutex);
@@ -93,7 +90,7 @@ TEST(Conveyor, OfSeveralFailuresTheFirstItemsIsThrown) {
     Conveyor<int> conveyor(
         [&](int& item) {
           if (item == 7) std::this_thread::sleep_for(std::chrono::microseconds(200));
-          if (item >= 7) throw std::runtime_error(std::to_string(item));
+          if (item >= 7) throw runtime_error(to_string(item));
         },
         0, 4);
 
@@ -104,7 +101,7 @@ TEST(Conveyor, OfSeveralFailuresTheFirstItemsIsThrown) {
         conveyor.send();
       }
       conveyor.finish();
-    } catch (const std::runtime_error& error) {
+    } catch (const runtime_error& error) {
       failure = error.what();
     }
     EXPECT_EQ(failure, "7");
@@ -140,7 +137,7 @@ TEST(Conveyor, WhatFailsThereIsThrownHere) {
     int used = 0;
     Conveyor<int> conveyor(
         [&](int&) {
-          if (++used == 5) throw std::runtime_error("the disk is full");
+          if (++used == 5) throw runtime_error("the disk is full");
         },
         alone);
 
@@ -148,7 +145,7 @@ TEST(Conveyor, WhatFailsThereIsThrownHere) {
       for (int i = 0; i < 20; ++i) conveyor.send();
       conveyor.finish();
     };
-    EXPECT_THROW(send_all(), std::runtime_error);
+    EXPECT_THROW(send_all(), runtime_error);
     EXPECT_EQ(used, 5);
   }
 }
@@ -216,7 +213,7 @@ TEST(Conveyor, ALongTrajectoryHasEveryRowOnce) {
       for (Entity i = 0; i < count; ++i) {
         const bool part = !state.part_of.empty() && state.part_of[i] != i;
         if (part && !wide) continue;
-        if (!wide) expected += number(time) + "," + (i == 0 ? "one" : "gas." + std::to_string(i - 1));
+        if (!wide) expected += number(time) + "," + (i == 0 ? "one" : "gas." + to_string(i - 1));
         for (const Vec3* vector : {&state.position[i], &state.velocity[i]})
           for (int axis = 0; axis < 3; ++axis) expected += "," + (part ? "" : number((*vector)[axis]));
         if (!wide) expected += "\n";

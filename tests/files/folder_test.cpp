@@ -172,7 +172,7 @@ TEST(Manifest, NamesEveryFileWithItsSizeAndHash) {
     EXPECT_EQ(file["sha256"], sha256(text)) << file["name"];
   }
 
-  std::ranges::sort(names);
+  ranges::sort(names);
   EXPECT_EQ(names, (Names{"collisions.csv", "energy.csv", "frames/frame_00000.png", "frames/frame_00001.png",
                           "frames/frame_00002.png", "scene.yaml", "sheet.png", "summary.csv", "trajectory.csv"}));
 }
@@ -464,7 +464,7 @@ TEST(OutputFile, KilledAtAnyMomentNoFinalFileIsIncomplete) {
   scene.output.frames = FramesOutput{100, {64, 36}, 1, 0, {}};
   run(scene, temp / "whole");
 
-  vector<std::pair<string, string>> expected;
+  vector<pair<string, string>> expected;
   for (const string& name : names_in(temp / "whole"))
     if (fs::is_regular_file(temp / "whole/" + name)) expected.emplace_back(name, read(temp / "whole/" + name));
 

@@ -6,8 +6,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <map>
-
 #include "export/export_testing.h"
 #include "files/folder_names.h"
 #include "files/manifest.h"
@@ -33,8 +31,8 @@ Scene scene_with_frames(const string& title, int fps) {
 }
 
 /// Every file beneath a folder: its bytes.
-std::map<string, string> bytes_in(const string& folder) {
-  std::map<string, string> bytes;
+map<string, string> bytes_in(const string& folder) {
+  map<string, string> bytes;
   for (const string& name : names_in(folder))
     if (fs::is_regular_file(folder + "/" + name)) bytes[name] = read(folder + "/" + name);
   return bytes;
@@ -70,7 +68,7 @@ TEST(Publication, FromEveryMomentOfItTheNextStateIsReached) {
   };
 
   for (size_t made = 0; made <= steps.size(); ++made) {
-    const string at = temp / std::to_string(made);
+    const string at = temp / to_string(made);
     commit(temp / "former", temp / "next", at);
     for (size_t k = 0; k < made; ++k) steps[k](at);
     settle_folder(at);

@@ -53,11 +53,11 @@ TEST(StoredTable, TakesMissingEndsAndEmptyFiles) {
 
 TEST(StoredTable, ReadsRowsThatArePiecesApart) {
   string text = "n,text\n";
-  for (int i = 0; i < 30'000; ++i) text += std::to_string(i) + ",row\n";
+  for (int i = 0; i < 30'000; ++i) text += to_string(i) + ",row\n";
   text += "last," + string(200'000, 'x') + "\n";
   const Rows rows = all_rows(text);
   ASSERT_EQ(rows.size(), 30'002u);
-  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(rows[static_cast<size_t>(i + 1)][0], std::to_string(i));
+  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(rows[static_cast<size_t>(i + 1)][0], to_string(i));
   EXPECT_EQ(rows.back()[1].size(), 200'000u);
 }
 
@@ -67,10 +67,10 @@ TEST(LinesFromEnd, AreTheLastOnesWithoutTheFirst) {
   EXPECT_TRUE(from_end("head\n", 9).empty());
   EXPECT_TRUE(from_end("", 9).empty());
   string text = "head\n";
-  for (int i = 0; i < 30'000; ++i) text += "line " + std::to_string(i) + "\n";
+  for (int i = 0; i < 30'000; ++i) text += "line " + to_string(i) + "\n";
   const auto lines = from_end(text, 40'000);
   ASSERT_EQ(lines.size(), 30'000u);
-  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(lines[static_cast<size_t>(29'999 - i)], "line " + std::to_string(i));
+  for (int i = 0; i < 30'000; ++i) ASSERT_EQ(lines[static_cast<size_t>(29'999 - i)], "line " + to_string(i));
 }
 
 }  // namespace

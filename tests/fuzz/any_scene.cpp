@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -94,12 +92,11 @@ ForceLaw any_law(Maker& m, const Units& u, double light) {
 
 void forces(Maker& m, const Units& u) {
   World& world = m.scene.world;
-  const double light = world.mass.empty() ? u.mass : *std::ranges::min_element(world.mass);
+  const double light = world.mass.empty() ? u.mass : *ranges::min_element(world.mass);
   const double duration = m.scene.options.duration;
   for (int k = m.whole(-2, 3); k > 0; --k) {
     const double from = m.chance(0.6) ? 0 : duration * m.uniform(0, 1);
-    const double until =
-        m.chance(0.3) ? from + duration * m.uniform(0.01, 0.7) : std::numeric_limits<double>::infinity();
+    const double until = m.chance(0.3) ? from + duration * m.uniform(0.01, 0.7) : infinity;
     world.forces.push_back({any_law(m, u, light), from, until});
     for (Entity i = 0; i < world.body_count(); ++i)
       if (m.chance(0.4)) world.forces.back().on.push_back(i);
@@ -192,7 +189,7 @@ void everything(Maker& m, bool tied) {
   if (tied) strings(m, u);
 
   World& world = m.scene.world;
-  const bool spheres = std::ranges::all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
+  const bool spheres = all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
   if (spheres) world.volume.clear();
 }
 

@@ -1,6 +1,4 @@
 // Files that are read back: meshes, flights.bin, manifests, tables.
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "export/exports.h"
@@ -37,7 +35,7 @@ void hold(const MeshPaint& paint, size_t vertices, size_t triangles) {
 
   if (in_parts != triangles) throw Finding("parts of other triangles");
   for (const auto& uv : paint.uv)
-    if (!std::isfinite(uv[0]) || !std::isfinite(uv[1])) throw Finding("a place in a texture is not finite");
+    if (!isfinite(uv[0]) || !isfinite(uv[1])) throw Finding("a place in a texture is not finite");
   for (const MeshTexture& texture : paint.textures)
     if (texture.width == 0 || texture.rgba.size() != size_t{4} * texture.width * texture.height)
       throw Finding("a texture has other pixels");
@@ -198,9 +196,9 @@ void read_mesh_reply_bytes(string_view bytes) {
 
   try {
     hold(receive_mesh({receive, [] { return string("it is cut off"); }}, limits));
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     const string text = error.what();
-    if (text.empty() || !std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; }))
+    if (text.empty() || !all_of(text, [](char c) { return c >= ' ' && c <= '~'; }))
       throw Finding("trouble with a mesh is told in bytes that are no text");
   }
 }
@@ -235,7 +233,7 @@ void read_mesh_bytes(string_view bytes) {
     hold(mesh);
     for (const Vec3& n : mesh.normals)
       if (n != Vec3::Zero() && !(std::abs(n.norm() - 1) < 1e-5)) throw Finding("a normal is not a unit vector");
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     if (string_view(error.what()).find(folder().path()) == string_view::npos)
       throw Finding("trouble with a mesh without its path: " + string(error.what()));
   }
@@ -244,8 +242,7 @@ void read_mesh_bytes(string_view bytes) {
 vector<string> mesh_seeds() {
   vector<string> seeds;
   const string data = SOURCE_DIR "/tests/data/meshes";
-  for (const auto& [ending, first] :
-       {std::pair{".obj", '\0'}, std::pair{".stl", '\1'}, std::pair{".glb", '\2'}, std::pair{".gltf", '\3'}})
+  for (const auto& [ending, first] : {pair{".obj", '\0'}, pair{".stl", '\1'}, pair{".glb", '\2'}, pair{".gltf", '\3'}})
     for (const string& path : files_below(data, ending))
       if (const string bytes = bytes_of(path); bytes.size() < 20'000) seeds.push_back(first + bytes);
 
@@ -269,13 +266,13 @@ void hold_flights(FlightsReader& reader, const Scene& scene) {
     if (!(piece.from >= last)) throw Finding("paths that go back in time");
 
     if (!piece.x.allFinite() || !piece.v.allFinite() || !piece.a.allFinite() || !piece.kick.allFinite() ||
-        !std::isfinite(piece.start.hi + piece.start.lo) || !std::isfinite(piece.until.hi + piece.until.lo))
+        !isfinite(piece.start.hi + piece.start.lo) || !isfinite(piece.until.hi + piece.until.lo))
       throw Finding("a path that is not finite");
     if (piece.curve)
       for (const Vec3& term : piece.curve->displacement)
         if (!term.allFinite() || !(piece.curve->length > 0)) throw Finding("a curve that is not finite");
-    if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && std::isfinite(piece.mass) &&
-                         std::isfinite(piece.radius)))
+    if (piece.joint && !(piece.mass > 0 && piece.radius > 0 && piece.half.allFinite() && isfinite(piece.mass) &&
+                         isfinite(piece.radius)))
       throw Finding("a joint body without mass or size");
 
     last = piece.from;
@@ -326,7 +323,7 @@ void read_table_bytes(string_view bytes) {
     string row;
     for (size_t k = 0; k < cells->size(); ++k) {
       const string_view cell = (*cells)[k];
-      if (const auto number = number_in(cell); number && !std::isfinite(*number)) throw Finding("a number without end");
+      if (const auto number = number_in(cell); number && !isfinite(*number)) throw Finding("a number without end");
       row += (k == 0 ? "" : ",") + string(cell);
     }
     rows.push_back(std::move(row));
@@ -348,7 +345,7 @@ void read_table_bytes(string_view bytes) {
 
 vector<string> table_seeds() {
   string many = "time_s,body,x_m\n";
-  for (int k = 0; k < 300; ++k) many += std::to_string(k) + ",red,1e-3\n";
+  for (int k = 0; k < 300; ++k) many += to_string(k) + ",red,1e-3\n";
   return {"time_s,body,x_m\n0,red,1.5\n0.01,\"a, \"\"b\"\"\",-2\n", "a,b\n1,2\n3,4", "a\n\n\n", "\"a\nb\",c\n1,2\r\n",
           many};
 }

@@ -1,6 +1,4 @@
 // The scene loader, the sweep loader, --set.
-#include <algorithm>
-#include <cmath>
 
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
@@ -40,7 +38,7 @@ void hold(const SceneError& error) {
 }
 
 bool all_finite(const vector<Vec3>& vectors) {
-  return std::ranges::all_of(vectors, [](const Vec3& v) { return v.allFinite(); });
+  return all_of(vectors, [](const Vec3& v) { return v.allFinite(); });
 }
 
 /// The guarantees of a loaded scene.
@@ -52,12 +50,12 @@ void hold(const Scene& scene) {
       (!world.impulse.empty() && world.impulse.size() != n))
     throw Finding("arrays by body differ in length");
 
-  const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-  if (!std::ranges::all_of(world.mass, positive)) throw Finding("a mass is not above 0");
-  if (!std::ranges::all_of(world.radius, positive)) throw Finding("a radius is not above 0");
+  const auto positive = [](double x) { return x > 0 && isfinite(x); };
+  if (!all_of(world.mass, positive)) throw Finding("a mass is not above 0");
+  if (!all_of(world.radius, positive)) throw Finding("a radius is not above 0");
   if (!all_finite(scene.initial.position) || !all_finite(scene.initial.velocity) || !all_finite(world.impulse))
     throw Finding("a body starts nowhere");
-  if (!(scene.simulate.duration >= 0) || !std::isfinite(scene.simulate.duration)) throw Finding("no duration");
+  if (!(scene.simulate.duration >= 0) || !isfinite(scene.simulate.duration)) throw Finding("no duration");
 }
 
 /// The resolved text loads, and resolves to itself.

@@ -4,11 +4,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
 
 #include "std.h"
 
@@ -20,13 +18,13 @@ namespace {
 
 void write_all(int file, string_view bytes) {
   if (ftruncate(file, 0) != 0 || pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw std::runtime_error("the input cannot be written");
+    throw runtime_error("the input cannot be written");
 }
 
 }  // namespace
 
 MemoryFile::MemoryFile(string_view bytes)
-    : file_(memfd_create("input", MFD_CLOEXEC)), path_("/proc/self/fd/" + std::to_string(file_.get())) {
+    : file_(memfd_create("input", MFD_CLOEXEC)), path_("/proc/self/fd/" + to_string(file_.get())) {
   write_all(file_.get(), bytes);
 }
 
@@ -39,7 +37,7 @@ OwnFolder::OwnFolder() {
   const fs::path shared = "/dev/shm";
   const bool writable = access(shared.c_str(), W_OK | X_OK) == 0;
   path_ = ((writable ? shared : fs::temp_directory_path()) / "carom_fuzz_XXXXXX").string();
-  if (mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no folder for inputs");
+  if (mkdtemp(path_.data()) == nullptr) throw runtime_error("no folder for inputs");
   folder_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
 }
 
@@ -62,7 +60,7 @@ vector<string> files_below(const string& folder, const string& ending) {
   vector<string> paths;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file() && entry.path().extension() == ending) paths.push_back(entry.path().string());
-  std::ranges::sort(paths);
+  ranges::sort(paths);
   return paths;
 }
 

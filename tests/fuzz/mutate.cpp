@@ -1,7 +1,5 @@
 #include "fuzz/mutate.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom::fuzz {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
 
 #include "physics/body_now.h"
@@ -161,7 +159,7 @@ class Run {
   void books(double gain, const Tally& tally) {
     if (scene_.simulate.contact.merge) return;
     const double relative =
-        relative_rounding * (1 + std::sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
+        relative_rounding * (1 + sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
     const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.removed.energy);
     if (!(std::abs(gain + tally.energy_lost + tally.method_error + tally.removed.energy - tally.work) <=
           relative * size))
@@ -203,8 +201,8 @@ class Run {
 
     if (c.kind == CollisionKind::rest) return;
     ++counted_;
-    if (!c.position.allFinite() || !c.normal.allFinite() || !std::isfinite(c.approach_speed) ||
-        !std::isfinite(c.separation_speed) || !std::isfinite(c.impulse) || !std::isfinite(c.energy_lost))
+    if (!c.position.allFinite() || !c.normal.allFinite() || !isfinite(c.approach_speed) ||
+        !isfinite(c.separation_speed) || !isfinite(c.impulse) || !isfinite(c.energy_lost))
       return fail(what + "not finite");
 
     if (c.kind == CollisionKind::merge) return;

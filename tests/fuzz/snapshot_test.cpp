@@ -23,10 +23,10 @@ TEST(SnapshotOfAnyScene, GoesOnWithTheSameBits) {
     try {
       scene = make_unique<Scene>(load_scene(file.path()));
       make_simulator(*scene);
-    } catch (const std::runtime_error&) {
+    } catch (const runtime_error&) {
       continue;  // refused
     }
-    SCOPED_TRACE("seed " + std::to_string(seed));
+    SCOPED_TRACE("seed " + to_string(seed));
     ++run;
 
     std::mt19937_64 random(seed);
@@ -35,7 +35,7 @@ TEST(SnapshotOfAnyScene, GoesOnWithTheSameBits) {
     vector<double> times;
     for (int k = 0; k < 6; ++k)
       times.push_back(scene->simulate.duration * static_cast<double>(random() >> 11) * 0x1p-53);
-    std::ranges::sort(times);
+    ranges::sort(times);
     times.push_back(scene->simulate.duration);
     expect_same_when_restored([&] { return make_simulator(*scene, records); }, times, random());
   }

@@ -1,8 +1,5 @@
 #include "fuzz/targets.h"
 
-#include <algorithm>
-#include <set>
-
 #include "scene/fields.h"
 #include "std.h"
 
@@ -30,11 +27,11 @@ const Target* find_target(string_view name) {
 }
 
 vector<string> words() {
-  std::set<string> all = {"[0, 0, 0]", "[1e3, -2, .5]", "{",         "}",           "[",   "]",    ": ",  "- ",
-                          "\n  ",      "1e308",         "-0",        "0x10",        "~",   "yes",  "off", "&a",
-                          "*a",        "!!x",           "|",         ">",           "# ",  "\"",   "'",   ",",
-                          "<<",        "...",           "\n---",     "null",        "nan", ".inf", "= ",  "'= i * r'",
-                          "= sin(",    "{i}",           "repeat: 3", "let: {r: 1}", "none"};
+  set<string> all = {"[0, 0, 0]", "[1e3, -2, .5]", "{",         "}",           "[",   "]",    ": ",  "- ",
+                     "\n  ",      "1e308",         "-0",        "0x10",        "~",   "yes",  "off", "&a",
+                     "*a",        "!!x",           "|",         ">",           "# ",  "\"",   "'",   ",",
+                     "<<",        "...",           "\n---",     "null",        "nan", ".inf", "= ",  "'= i * r'",
+                     "= sin(",    "{i}",           "repeat: 3", "let: {r: 1}", "none"};
 
   for (const span<const Kind>& family : families())
     for (const Kind& kind : family)

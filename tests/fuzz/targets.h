@@ -1,7 +1,6 @@
 #pragma once
 // Fuzz targets: functions of arbitrary bytes. Each passes the bytes to a part of the program as the content of a file,
 // and checks the result against the guarantees of that part. A refusal by the part's own error is fine.
-#include <stdexcept>
 
 #include "std.h"
 

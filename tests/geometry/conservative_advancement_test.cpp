@@ -211,8 +211,8 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
   // time, and the ball dips below the box and comes back to its bottom.
   for (const double pull : {0.5, 1.0, 3.0})
     for (const double push : {0.0, 1e-12, 1e-9}) {
-      const double r = 0.15, half = 0.1, out = r * std::sqrt(0.5), speed = 1;
-      const Vec3 along = Vec3(1, -1, 0) * std::sqrt(0.5), normal = Vec3(-1, -1, 0) * std::sqrt(0.5);
+      const double r = 0.15, half = 0.1, out = r * sqrt(0.5), speed = 1;
+      const Vec3 along = Vec3(1, -1, 0) * sqrt(0.5), normal = Vec3(-1, -1, 0) * sqrt(0.5);
 
       World world;
       world.mass = {1, 1};
@@ -225,7 +225,7 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
 
       // When it comes back to the bottom.
       const double room = d.y() + half + r;  // m, above the plane of the bottom
-      const double time = (-w.y() + std::sqrt(w.y() * w.y() - 2 * a.y() * room)) / a.y();
+      const double time = (-w.y() + sqrt(w.y() * w.y() - 2 * a.y() * room)) / a.y();
 
       const FeatureTime found = time_of_impact(world, 0, 1, {d, w, a, 4, false}, no_feature, 10);
       EXPECT_NEAR(found.time, time, 1e-13) << pull << ' ' << push;

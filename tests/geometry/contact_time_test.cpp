@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -19,7 +19,7 @@ TEST(ImpactTime, GrazingPairsAreHitOrMissedByTheSignOfTheExactMissDistance) {
       const double inside = 1 - std::ldexp(1.0, -k), outside = 1 + std::ldexp(1.0, -k);
       const double t = meet({far, inside, 0}, {-1, 0, 0});
       EXPECT_LT(t, far) << "k = " << k;
-      const double exact = far - std::sqrt((1 - inside) * (1 + inside));
+      const double exact = far - sqrt((1 - inside) * (1 + inside));
       EXPECT_NEAR(t / exact, 1, 3e-16) << "k = " << k << " far = " << far;
       if (k < 52) {
         EXPECT_EQ(meet({far, outside, 0}, {-1, 0, 0}), never) << "k = " << k;
@@ -45,7 +45,7 @@ TEST(ImpactTime, AnApproachWithinTheRoundingOfItsVelocitiesIsNone) {
 TEST(ImpactTime, UnequalAccelerationsMeetAtTheParabolasRoot) {
   // Down by 5 t^2 from 6 to 1: t = 1. Upwards first: 6 + 10 t - 5 t^2 = 1 at t = 1 + sqrt 2.
   EXPECT_NEAR(meet({0, 6, 0}, {0, 0, 0}, {0, -10, 0}), 1, 2e-16);
-  EXPECT_NEAR(meet({0, 6, 0}, {0, 10, 0}, {0, -10, 0}), 1 + std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(meet({0, 6, 0}, {0, 10, 0}, {0, -10, 0}), 1 + sqrt(2.0), 1e-15);
 }
 
 TEST(ImpactTime, JustSeparatedPairsMeetAgainAfterTheWholeHop) {

@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "simulate/random.h"
 #include "slow_with_sanitizers.h"
+#include "std.h"
 
 namespace carom {
 namespace {

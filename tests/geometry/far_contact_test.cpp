@@ -3,9 +3,6 @@
 // square of that length over the radius, here 1e5 times as much.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"
@@ -18,7 +15,7 @@ using by_hand::Sampler;
 __extension__ typedef __float128 Quad;
 
 Quad root(Quad x) {
-  Quad r = std::sqrt(static_cast<double>(x));
+  Quad r = sqrt(static_cast<double>(x));
   for (int k = 0; k < 4 && r > 0; ++k) r = (r + x / r) / 2;
   return r;
 }

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace carom {
 namespace {
 
@@ -31,7 +29,7 @@ bool holds(const Fit& fit, const Vec3& p) {
     case Shape::sphere:
       return d.norm() <= half.x();
     case Shape::cylinder:
-      return std::hypot(d.x(), d.z()) <= half.x() && std::abs(d.y()) <= half.y();
+      return hypot(d.x(), d.z()) <= half.x() && std::abs(d.y()) <= half.y();
     case Shape::box:
       break;
   }
@@ -55,7 +53,7 @@ TEST(TightestSphere, OfACubesCornersIsItsCircumsphere) {
   vector<Vec3> points;
   for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? 3 : 1, i & 2 ? 3 : 1, i & 4 ? 3 : 1);
   const Fit fit = tightest(Shape::sphere, points);
-  EXPECT_NEAR(fit.volume.half.x(), std::sqrt(3.0), 8 * eps);  // measured: 5
+  EXPECT_NEAR(fit.volume.half.x(), sqrt(3.0), 8 * eps);  // measured: 5
   EXPECT_LT((fit.center - Vec3(2, 2, 2)).norm(), 4 * eps);
   expect_holds(fit, points);
 }
@@ -141,7 +139,7 @@ TEST(TightestSphere, OfNearlyFlatAndNearlyStraightCloudsIsNoLargerThanNeeded) {
     for (const auto& points : {disc, line}) {
       const Fit fit = tightest(Shape::sphere, points);
       EXPECT_GE(fit.volume.half.x(), 1);
-      EXPECT_LE(fit.volume.half.x(), std::sqrt(1 + thin * thin) + 8 * eps) << thin;
+      EXPECT_LE(fit.volume.half.x(), sqrt(1 + thin * thin) + 8 * eps) << thin;
       expect_holds(fit, points);
     }
   }

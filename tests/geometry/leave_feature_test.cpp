@@ -26,7 +26,7 @@ TEST(LeaveFeature, ABallLeavesABoxesFaceOverTheEdgeBelowItsCentre) {
   EXPECT_EQ(m.feature, feature(-1, -1, 0));
   // Pulled back before the one rim, over the other one.
   const FeatureTime back = leave(ball, brick, feature(0, -1, 0), {0, -1.5, 0}, {0.5, 0, 0}, {-1, 0, 0});
-  EXPECT_NEAR(back.time, 0.5 + std::sqrt(1.25), 4e-16);
+  EXPECT_NEAR(back.time, 0.5 + sqrt(1.25), 4e-16);
   EXPECT_EQ(back.feature, feature(-1, -1, 0));
 }
 

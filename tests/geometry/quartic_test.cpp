@@ -2,8 +2,6 @@
 // precision. Bounds: what the derivative cascade reaches in the reference table quartic.json, row by row.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "std.h"
 #include "volumes_by_hand.h"
@@ -150,7 +148,7 @@ TEST(Quartic, ABallAndAFixedBallAreAsExactAsTheReferenceTablesCascade) {
       }
     }
 
-    std::ranges::sort(errors);
+    ranges::sort(errors);
     const double median = errors[errors.size() / 2], worst = errors.back();
     printf("%-14s %3d hits, %d missed, %d invented, relative error: median %.2g, worst %.2g\n", row.family, hits,
            missed, invented, median, worst);

@@ -1,13 +1,13 @@
 // When a string goes taut: the inside of a sphere.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <random>
 
 #include "geometry/contact_time.h"
 #include "geometry/path_time_of_impact.h"
 #include "geometry/touch.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -35,7 +35,7 @@ TEST(TautTime, AStringThatHasJustBeenTautIsTautAgainAfterTheWholeChord) {
 TEST(TautTime, AParabolaReachesTheSphereAtItsRoot) {
   // Up with v from the lowest point: taut again at the same place, after the hop, or at the highest one.
   EXPECT_NEAR(taut({0, -1, 0}, {0, 4, 0}, {0, -10, 0}, 1, 1e9, true), 0.8, 1e-15);
-  EXPECT_NEAR(taut({0, -1, 0}, {0, 10, 0}, {0, -10, 0}, 1, 1e9, true), 1 - std::sqrt(0.6), 1e-15);
+  EXPECT_NEAR(taut({0, -1, 0}, {0, 10, 0}, {0, -10, 0}, 1, 1e9, true), 1 - sqrt(0.6), 1e-15);
   // From rest at the side: 1 = (0.6)^2 + (5 t^2)^2.
   EXPECT_NEAR(taut({0.6, 0, 0}, {0, 0, 0}, {0, -10, 0}), 0.4, 1e-15);
 }

@@ -37,7 +37,7 @@ TEST(TimeOfImpact, UnderGravityItIsTheFallsTime) {
   EXPECT_EQ(meet(can, brick, {0.5, 7, 0}, none, -10 * up), 1);
   EXPECT_EQ(meet(brick, ball, {0.25, 6.5, 0}, none, -10 * up), 1);
   EXPECT_EQ(meet(can, ball, {0.25, 6.5, 0}, none, -10 * up, 0.99), never) << "beyond the horizon";
-  EXPECT_NEAR(meet(can, can, {0, 7, 0}, 10 * up, -10 * up), 1 + std::sqrt(2.0), 4.5e-16);
+  EXPECT_NEAR(meet(can, can, {0, 7, 0}, 10 * up, -10 * up), 1 + sqrt(2.0), 4.5e-16);
 }
 
 TEST(TimeOfImpact, EdgesCornersAndRimsAreRoundForABall) {
@@ -45,7 +45,7 @@ TEST(TimeOfImpact, EdgesCornersAndRimsAreRoundForABall) {
   EXPECT_NEAR(meet(brick, ball, {0.5 + 0.3, 1 + 0.4 + 2, 0}, -up), 2, 4e-16);
   const Volume marble = Volume::sphere(0.7);
   EXPECT_NEAR(meet(brick, marble, {0.5 + 0.2, 1 + 0.3, 1.5 + 0.6 + 2}, -far_z), 2, 1e-15);
-  const double s = std::sqrt(0.5);
+  const double s = sqrt(0.5);
   EXPECT_NEAR(meet(can, ball, {0.8 * s, 1 + 0.4 + 2, 0.8 * s}, -up), 2, 6e-16);
   EXPECT_NEAR(meet(can, ball, {0.8, 1.4 + 5, 0}, none, -10 * up), 1, 2e-16);
 }
@@ -185,7 +185,7 @@ TEST(TimeOfImpact, ScalingByPowersOfTwoKeepsTheBits) {
         const Vec3 w = -(d + random.vector(0.5));
         const FeatureTime m = time_of_impact(world, 0, 1, motion(d, w, a), no_feature, 10);
 
-        for (const auto& [length, time] : {std::pair(0x1p20, 0x1p-7), std::pair(0x1p-30, 0x1p11)}) {
+        for (const auto& [length, time] : {pair(0x1p20, 0x1p-7), pair(0x1p-30, 0x1p11)}) {
           World scaled = world;
           scaled.volume[0].half *= length;
           for (Obstacle& o : scaled.obstacles) o.volume.half *= length;
@@ -283,16 +283,16 @@ TEST(TimeOfImpact, GrazingARoundingIsAHitOrAMissByItsDepth) {
         const long double x = from.x() + t * v.x(), y = from.y() + t * v.y(), z = from.z() + t * v.z();
         long double e[3] = {x, y, z}, sum = 0;
         if (kb == Kind::cylinder) {
-          const long double out = std::max(std::sqrt(x * x + z * z) - core.half.x(), 0.0L);
+          const long double out = std::max(sqrt(x * x + z * z) - core.half.x(), 0.0L);
           const long double over = std::max(std::abs(y) - static_cast<long double>(core.half.y()), 0.0L);
-          return std::sqrt(out * out + over * over);
+          return sqrt(out * out + over * over);
         }
 
         for (int k = 0; k < 3; ++k) {
           const long double out = std::max(std::abs(e[k]) - static_cast<long double>(core.half[k]), 0.0L);
           sum += out * out;
         }
-        return std::sqrt(sum);
+        return sqrt(sum);
       };
 
       // The least distance, by thirds.

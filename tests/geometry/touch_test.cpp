@@ -31,7 +31,7 @@ TEST(Touch, ABallAndAFaceAreAsFarApartAsTheyAreAlongTheFacesNormal) {
 TEST(Touch, AnEdgeACornerAndARimHaveTheNormalOfTheirNearestPoint) {
   expect_touch(touch_of(brick, ball, {0.5 + 3, 1 + 4, 0}), 4.5, {0.6, 0.8, 0}, {0.5, 1, 0});
   expect_touch(touch_of(brick, ball, {0.5 + 2, 1 + 3, -1.5 - 6}), 6.5, Vec3(2, 3, -6) / 7, {0.5, 1, -1.5});
-  const double s = std::sqrt(0.5);
+  const double s = sqrt(0.5);
   expect_touch(touch_of(can, ball, {(0.5 + 3) * s, 1 + 4, (0.5 + 3) * s}), 4.5, {0.6 * s, 0.8, 0.6 * s},
                {0.5 * s, 1, 0.5 * s});
 }

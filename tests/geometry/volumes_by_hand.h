@@ -1,8 +1,6 @@
 #pragma once
 // A second implementation of volumes, for tests of the table of pairs: the nearest point of each, its support function,
 // and whether two overlap, by alternating projections. Only the types come from physics/.
-#include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "geometry/contact_time.h"
@@ -20,7 +18,7 @@ struct Thing {
   Vec3 nearest(const Vec3& p) const {
     if (shape == Shape::sphere) return p.norm() > half.x() ? Vec3(p * (half.x() / p.norm())) : p;
     if (shape == Shape::cylinder) {
-      const double rho = std::hypot(p.x(), p.z()), f = rho > half.x() ? half.x() / rho : 1;
+      const double rho = hypot(p.x(), p.z()), f = rho > half.x() ? half.x() / rho : 1;
       return {p.x() * f, std::clamp(p.y(), -half.y(), half.y()), p.z() * f};
     }
     Vec3 q = Vec3::Zero();
@@ -29,7 +27,7 @@ struct Thing {
   }
   double support(const Vec3& n) const {
     if (shape == Shape::sphere) return half.x() * n.norm();
-    if (shape == Shape::cylinder) return half.x() * std::hypot(n.x(), n.z()) + half.y() * std::abs(n.y());
+    if (shape == Shape::cylinder) return half.x() * hypot(n.x(), n.z()) + half.y() * std::abs(n.y());
     double h = 0;
     for (int k = 0; k < 3; ++k) h += half[k] * std::abs(n.dot(axis[k]));
     return h;
@@ -68,7 +66,7 @@ class Sampler {
  public:
   explicit Sampler(unsigned seed) : engine_(seed) {}
   double uniform(double a, double b) { return a + (b - a) * 0x1p-53 * static_cast<double>(engine_() >> 11); }
-  double log_uniform(double a, double b) { return a * std::pow(b / a, uniform(0, 1)); }
+  double log_uniform(double a, double b) { return a * pow(b / a, uniform(0, 1)); }
   Vec3 vector(double size) {
     for (;;) {
       const double x = uniform(-1, 1), y = uniform(-1, 1), z = uniform(-1, 1);

@@ -4,9 +4,6 @@
 // tolerance that is met.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "bench/reference.h"
 #include "run/accuracy.h"
 #include "run/contact_scenes.h"
@@ -22,7 +19,7 @@ double stated_with_tolerance(Scene scene, double tolerance, StepChoice& steps) {
   EngineChoice engine = choose_engine(scene);
   settle_steps(scene, engine, [] {});
   steps = engine.steps;
-  return engine.shortfall.empty() ? tolerance : std::numeric_limits<double>::infinity();
+  return engine.shortfall.empty() ? tolerance : infinity;
 }
 
 TEST(ContactAccuracy, OfTwoHundredScenesIsContainedInWhatIsStated) {
@@ -43,9 +40,9 @@ TEST(ContactAccuracy, OfTwoHundredScenesIsContainedInWhatIsStated) {
     }
 
     StepChoice steps;
-    const double tolerance = std::pow(10.0, -4 - static_cast<double>(seed % 7));
+    const double tolerance = pow(10.0, -4 - static_cast<double>(seed % 7));
     const double with_tolerance = stated_with_tolerance(of->scene, tolerance, steps);
-    if (std::isfinite(with_tolerance)) {
+    if (isfinite(with_tolerance)) {
       ++met;
       EXPECT_LE(of->error(steps), 10 * with_tolerance) << seed << ": " << of->what;
       of_tolerances = std::max(of_tolerances, of->error(steps) / with_tolerance);

@@ -1,8 +1,6 @@
 // A thousand random scenes under forces of all kinds and sizes: a run's error estimate holds.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "run/accuracy.h"
 #include "scene/scene.h"
@@ -14,7 +12,7 @@ namespace {
 
 /// 10^a, a between these.
 double decades(Random& random, double from, double to) {
-  return std::pow(10.0, from + (to - from) * random(0, 1));
+  return pow(10.0, from + (to - from) * random(0, 1));
 }
 
 Vec3 anywhere(Random& random, double size) {

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <limits>
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -62,7 +61,6 @@ TEST(SinCos, TakeInWhatADoubleLacks) {
 }
 
 TEST(SinCos, AreNumbersForAnyArgument) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   for (double z : {0x1p51, 1e17, 1e300, infinity, infinity - infinity}) {
     const SinCos of = sin_cos(z);
     EXPECT_NEAR(of.sin * of.sin + of.cos * of.cos, 1, 4e-16) << z;

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace carom {
 namespace {
 
@@ -47,8 +45,8 @@ TEST(Roots, LeadingZerosLowerTheDegree) {
 }
 
 TEST(FirstDescent, SkipsARiseThroughZero) {
-  EXPECT_NEAR(first_descent(from_roots({1, 2, 3, 5}), 10), 1, 1e-15);             // + - + - +
-  EXPECT_NEAR(first_descent({{-1, 2, -0.5}, 2}, 10), 2 + std::sqrt(2.0), 1e-15);  // rises at 0.59, falls at 3.41
+  EXPECT_NEAR(first_descent(from_roots({1, 2, 3, 5}), 10), 1, 1e-15);        // + - + - +
+  EXPECT_NEAR(first_descent({{-1, 2, -0.5}, 2}, 10), 2 + sqrt(2.0), 1e-15);  // rises at 0.59, falls at 3.41
 }
 
 TEST(FirstDescent, BelowZeroAndFallingIsNow) {

@@ -3,13 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include "std.h"
 
 namespace carom {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(Power, IsExactForSmallWholeNumbers) {
   for (int base = -9; base <= 9; ++base) {
@@ -22,7 +19,7 @@ TEST(Power, IsExactForSmallWholeNumbers) {
   EXPECT_EQ(power(10, 22), 1e22);
   EXPECT_EQ(power(10, -3), 0.001);
   EXPECT_EQ(power(2, -1074), 5e-324);
-  EXPECT_EQ(power(2, 0.5), std::sqrt(2.0));
+  EXPECT_EQ(power(2, 0.5), sqrt(2.0));
 }
 
 TEST(Power, IsTheReference) {

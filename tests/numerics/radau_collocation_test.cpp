@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "numerics/dormand_prince.h"
 #include "std.h"
 
@@ -28,7 +26,7 @@ struct OnABall {
     return {a};
   }
   /// Position and velocity after t (s) in many steps of the explicit method.
-  std::pair<Vec3, Vec3> after(double t, Vec3 x, Vec3 v) const {
+  pair<Vec3, Vec3> after(double t, Vec3 x, Vec3 v) const {
     const int steps = std::max(static_cast<int>(20 * fade * t), 200);
     const auto a = [this](const vector<Vec3>& p, const vector<Vec3>& u) { return accelerate(p, u); };
     for (int k = 0; k < steps; ++k) {
@@ -62,7 +60,7 @@ TEST(RadauCollocation, OnASurfaceIsWhatTheExplicitMethodComesTo) {
   for (const double fade : {1.0, 100.0, 3000.0}) {
     const OnABall ball{fade};
     // Along the path on which drag is over.
-    const auto [x, v] = ball.after(40 / fade, Vec3(0.1, std::sqrt(1 - 0.01), 0), Vec3::Zero());
+    const auto [x, v] = ball.after(40 / fade, Vec3(0.1, sqrt(1 - 0.01), 0), Vec3::Zero());
     const double h = 0.05;
     RadauCollocation motion({x}, {v});
     EXPECT_LT(motion.step(h, ball.forces(), OnABall::hold, 1e-10, 1e-10), 1) << fade;

@@ -1,5 +1,4 @@
 // Colours of bodies by a quantity, and flashes.
-#include <limits>
 
 #include "overlay/body_colors.h"
 #include "overlay/drawing_maker.h"
@@ -27,11 +26,11 @@ Color viridis(double at) {
 }
 
 TEST(ColourMap, EndsWithTheColoursOfItsTable) {
-  const std::pair<ColorMap, std::pair<string, string>> ends[] = {{ColorMap::viridis, {"#440154", "#fde725"}},
-                                                                 {ColorMap::cividis, {"#00224e", "#fee838"}},
-                                                                 {ColorMap::magma, {"#000004", "#fcfdbf"}},
-                                                                 {ColorMap::plasma, {"#0d0887", "#f0f921"}},
-                                                                 {ColorMap::inferno, {"#000004", "#fcffa4"}}};
+  const pair<ColorMap, pair<string, string>> ends[] = {{ColorMap::viridis, {"#440154", "#fde725"}},
+                                                       {ColorMap::cividis, {"#00224e", "#fee838"}},
+                                                       {ColorMap::magma, {"#000004", "#fcfdbf"}},
+                                                       {ColorMap::plasma, {"#0d0887", "#f0f921"}},
+                                                       {ColorMap::inferno, {"#000004", "#fcffa4"}}};
   for (const auto& [map, colors] : ends) {
     EXPECT_EQ(hex_text(color_in(map, 0)), colors.first);
     EXPECT_EQ(hex_text(color_in(map, 1)), colors.second);
@@ -48,7 +47,7 @@ TEST(ColourMap, BecomesLighterAllAlongForPrintWithoutColours) {
     double before = -1;
     for (int i = 0; i <= 100; ++i) {
       const Color c = color_in(map, i / 100.0);
-      const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+      const auto linear = [](double x) { return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4); };
       const double luminance = 0.2126 * linear(c.r) + 0.7152 * linear(c.g) + 0.0722 * linear(c.b);
       EXPECT_GT(luminance, before) << static_cast<int>(map) << " at " << i;
       before = luminance;

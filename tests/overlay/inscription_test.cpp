@@ -4,7 +4,6 @@
 #include <freetype/freetype.h>
 #include <freetype/ftoutln.h>
 
-#include <cmath>
 #include <cstdlib>
 
 #include "render/renderer.h"
@@ -48,15 +47,14 @@ Coverage by_freetype(const string& text, double size, double x, double y, Size p
     x += kerning.x / 64.0;
 
     FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING);
-    FT_Outline_Translate(&face->glyph->outline, std::lround((x - std::floor(x)) * 64),
-                         -std::lround((y - std::floor(y)) * 64));
+    FT_Outline_Translate(&face->glyph->outline, std::lround((x - floor(x)) * 64), -std::lround((y - floor(y)) * 64));
     FT_Render_Glyph(face->glyph, FT_RENDER_MODE_NORMAL);
 
     const FT_Bitmap& bitmap = face->glyph->bitmap;
     for (unsigned row = 0; row < bitmap.rows; ++row)
       for (unsigned column = 0; column < bitmap.width; ++column) {
-        uint8_t& pixel = all.at(static_cast<int>(std::floor(x)) + face->glyph->bitmap_left + static_cast<int>(column),
-                                static_cast<int>(std::floor(y)) - face->glyph->bitmap_top + static_cast<int>(row));
+        uint8_t& pixel = all.at(static_cast<int>(floor(x)) + face->glyph->bitmap_left + static_cast<int>(column),
+                                static_cast<int>(floor(y)) - face->glyph->bitmap_top + static_cast<int>(row));
         pixel = static_cast<uint8_t>(
             std::min(255, pixel + bitmap.buffer[row * static_cast<unsigned>(bitmap.pitch) + column]));
       }
@@ -106,7 +104,7 @@ TEST(Caption, HasThePixelsOfItsGlyphsAtItsPlace) {
 
 TEST(Caption, HasAContrastOfFiveToOneOnAnyGround) {
   // Relative luminance by WCAG 2; the ground is white below a plate of opacity 0.6.
-  const double grey = 0.4, luminance = std::pow((grey + 0.055) / 1.055, 2.4);
+  const double grey = 0.4, luminance = pow((grey + 0.055) / 1.055, 2.4);
   EXPECT_GT(1.05 / (luminance + 0.05), 5);  // 5.74
 }
 
@@ -128,7 +126,7 @@ TEST(Caption, NeverLeavesThePicture) {
   for (int i = 0; i < 60; ++i) text += i % 7 == 0 ? " Donaudampfschifffahrt" : " bounces of a ball";
 
   for (const auto& [width, height] :
-       {std::pair(16, 16), {32, 18}, {64, 36}, {480, 20}, {20, 480}, {640, 360}, {1280, 720}}) {
+       {pair(16, 16), {32, 18}, {64, 36}, {480, 20}, {20, 480}, {640, 360}, {1280, 720}}) {
     for (const string& its : {text, string(500, 'W'), string("x")}) {
       const TextBlock block(font, its, std::max(height / 28.0, 10.0), width, height);
       if (block.canvas() == nullptr) continue;
@@ -249,7 +247,7 @@ TEST(Legend, OfGroupsListsTheirNamesAndColours) {
 
 TEST(Legend, OfManyNamesEndsWithTheNumberOfTheOthers) {
   string text = start + "defaults: {ball: {mass: 1, radius: 0.1, color: {by: group}}}\nballs:\n";
-  for (int i = 0; i < 20; ++i) text += "  b" + std::to_string(i) + ": {position: [" + std::to_string(i) + ", 0, 0]}\n";
+  for (int i = 0; i < 20; ++i) text += "  b" + to_string(i) + ": {position: [" + to_string(i) + ", 0, 0]}\n";
   const vector<Legend> legends = legends_of(load_text(text));
   ASSERT_EQ(legends[0].entries.size(), 12u);
   EXPECT_EQ(legends[0].entries.back().name, "9 more");
@@ -258,7 +256,7 @@ TEST(Legend, OfManyNamesEndsWithTheNumberOfTheOthers) {
 TEST(Legend, NeverLeavesThePicture) {
   const vector<Legend> legends(4, {"kinetic energy (J)", ColorMap::magma, "0", "1200", {}});
   Font font(find_font());
-  for (const auto& [width, height] : {std::pair(16, 16), {64, 36}, {100, 200}, {640, 360}}) {
+  for (const auto& [width, height] : {pair(16, 16), {64, 36}, {100, 200}, {640, 360}}) {
     const LegendBlock block(font, legends, 20, width, height);
     if (block.canvas() == nullptr) continue;
     EXPECT_LE(block.canvas()->width(), width);

@@ -1,8 +1,6 @@
 // Motion blur: the instants of a picture, and the mean of its drawings.
 #include "overlay/shutter.h"
 
-#include <cmath>
-
 #include "overlay/light_mean.h"
 #include "scene/scenes_in_text.h"
 #include "std.h"
@@ -12,12 +10,12 @@ namespace {
 
 double linear(int byte) {
   const double x = byte / 255.0;
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+  return x <= 0.04045 ? x / 12.92 : pow((x + 0.055) / 1.055, 2.4);
 }
 
 int encoded(double light) {
   return static_cast<int>(
-      std::lround(255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055)));
+      std::lround(255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055)));
 }
 
 TEST(LightMean, IsThatOfLinearLight) {
@@ -56,7 +54,7 @@ TEST(Shutter, OpensForAPartOfTheIntervalUntilThePicture) {
   EXPECT_TRUE(shutter.opens());
   shutter.open_for(4);
   vector<double> instants;
-  for (; std::isfinite(shutter.next()); shutter.pass()) instants.push_back(shutter.next());
+  for (; isfinite(shutter.next()); shutter.pass()) instants.push_back(shutter.next());
   // The fourth is the picture's own time.
   EXPECT_EQ(instants, (vector<double>{0.8125, 0.875, 0.9375}));
 }
@@ -65,13 +63,13 @@ TEST(Shutter, OfOneInstantIsThePicturesOwn) {
   Shutter shutter(0.25);
   shutter.aim(1);
   shutter.open_for(1);
-  EXPECT_EQ(shutter.next(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(shutter.next(), infinity);
 }
 
 TEST(Shutter, DoesNotOpenBeforeTheStartOrThePictureBefore) {
   Shutter shutter(0.25);
   shutter.aim(0);
-  EXPECT_EQ(shutter.next(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(shutter.next(), infinity);
   shutter.aim(0.1);
   EXPECT_EQ(shutter.next(), 0);
   shutter.aim(0.3);
@@ -80,7 +78,7 @@ TEST(Shutter, DoesNotOpenBeforeTheStartOrThePictureBefore) {
 
 TEST(Shutter, ThatIsNotUsedHasNoInstants) {
   EXPECT_FALSE(Shutter(0).is_used());
-  EXPECT_EQ(Shutter(0).next(), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(Shutter(0).next(), infinity);
 }
 
 TEST(Exposures, AreOneForEachPixelOfMotion) {

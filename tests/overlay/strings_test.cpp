@@ -1,8 +1,6 @@
 // Strings as strokes: taut, slack, rods, and those of bodies that are gone.
 #include "overlay/strings.h"
 
-#include <cmath>
-
 #include "overlay/drawing_maker.h"
 #include "overlay/hanging_curve.h"
 #include "scene/scenes_in_text.h"

@@ -1,5 +1,4 @@
 // Trails, springs and arrows, as strokes.
-#include <cmath>
 #include <numbers>
 
 #include "numerics/compensated.h"

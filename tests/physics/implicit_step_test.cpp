@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "numerics/dormand_prince.h"
@@ -147,14 +145,14 @@ TEST(ImplicitStep, HasOrder13AtItsEndAnd8Before) {
     forces.step(method, h, {1, 0.5, 0}, {0.3, 0, 1}, 1e-13, 1e-13);
     const PolynomialPath path = method.path();
     const double t = s * h, c = std::cos(t), d = std::sin(t);
-    return std::pair{(Vec3(1, 0.5, 0) + path.displacement_at(t) - Vec3(c + 0.3 * d, 0.5 * c, d)).norm(),
-                     (Vec3(0.3, 0, 1) + path.change_at(t) - Vec3(0.3 * c - d, -0.5 * d, c)).norm()};
+    return pair{(Vec3(1, 0.5, 0) + path.displacement_at(t) - Vec3(c + 0.3 * d, 0.5 * c, d)).norm(),
+                (Vec3(0.3, 0, 1) + path.change_at(t) - Vec3(0.3 * c - d, -0.5 * d, c)).norm()};
   };
 
   const auto order = [&](double h, double s) {  // of the local error
     const auto [x, v] = miss(h, s);
     const auto [half_x, half_v] = miss(h / 2, s);
-    return std::pair{std::log2(x / half_x), std::log2(v / half_v)};
+    return pair{std::log2(x / half_x), std::log2(v / half_v)};
   };
 
   const auto [end_x, end_v] = order(3, 1);
@@ -186,7 +184,7 @@ TEST(ImplicitStep, BeginsAtTheStartAndEndsWhereStagesDo) {
 
 TEST(ImplicitStep, OfLinearDragIsTheClosedFormOverDecades) {
   for (int decade = 0; decade <= 10; ++decade) {
-    const double c = std::pow(10, decade);
+    const double c = pow(10, decade);
     Forces forces;
     forces.pull = {0, -9, 0};
     forces.drag.linear = c;
@@ -212,7 +210,7 @@ TEST(ImplicitStep, OfQuadraticDragFallsToItsTerminalVelocity) {
     Forces forces;
     forces.pull = {0, 0, -9};
     forces.drag.quadratic = q;
-    const double terminal = 3 / std::sqrt(q), rate = 9 / terminal;
+    const double terminal = 3 / sqrt(q), rate = 9 / terminal;
 
     const auto exact = [&](double t) {
       const double fallen = rate * t + std::log1p(std::exp(-2 * rate * t)) - std::numbers::ln2;
@@ -248,10 +246,10 @@ TEST(ImplicitStep, OfLinearAndQuadraticDragIsTheClosedForm) {
 
 TEST(ImplicitStep, OfAnOverdampedSpringCreepsToItsRestLength) {
   for (const double k : {1e2, 1e6, 1e10}) {
-    const double c = 100 * std::sqrt(k), stretch = 0.5;
+    const double c = 100 * sqrt(k), stretch = 0.5;
     Forces forces;
     forces.spring = {Vec3::Zero(), k, 1, c};
-    const double root = std::sqrt(c * c / 4 - k), slow = -k / (c / 2 + root), quick = -(c / 2 + root);
+    const double root = sqrt(c * c / 4 - k), slow = -k / (c / 2 + root), quick = -(c / 2 + root);
 
     const auto exact = [&](double t) {
       const double a = -quick * stretch / (slow - quick), b = slow * stretch / (slow - quick);
@@ -260,16 +258,16 @@ TEST(ImplicitStep, OfAnOverdampedSpringCreepsToItsRestLength) {
     };
 
     Motion run{Vec3(1 + stretch, 0, 0), Vec3::Zero()};
-    run.go(forces, 1, 0.01 / c, exact, tolerance * std::sqrt(k));
-    EXPECT_LT(run.off, 2e-12) << k;                  // measured: 4e-13 at most
-    EXPECT_LT(run.fast, 4e-12 * std::sqrt(k)) << k;  // measured: 1.5e-13 of the root at most
+    run.go(forces, 1, 0.01 / c, exact, tolerance * sqrt(k));
+    EXPECT_LT(run.off, 2e-12) << k;             // measured: 4e-13 at most
+    EXPECT_LT(run.fast, 4e-12 * sqrt(k)) << k;  // measured: 1.5e-13 of the root at most
     EXPECT_LT(run.steps + run.rejected, 80) << k;
   }
 }
 
 Long3 damped_and_attracted(const Long3& x, const Long3& v, long double damping) {
   const long double square = x[0] * x[0] + x[1] * x[1], along = damping * (x[0] * v[0] + x[1] * v[1]) / square;
-  const long double d = x[0] - 0.25L, soft = d * d + x[1] * x[1] + 0.0625L, pull = 1 / (soft * std::sqrt(soft));
+  const long double d = x[0] - 0.25L, soft = d * d + x[1] * x[1] + 0.0625L, pull = 1 / (soft * sqrt(soft));
   return {-along * x[0] - pull * d, -along * x[1] - pull * x[1], 0};
 }
 
@@ -350,7 +348,7 @@ TEST(ImplicitStep, TakesFewStepsOffTheSlowMotion) {
   dragged.go(drag, 1, 1, nullptr);
   EXPECT_LT(dragged.steps + dragged.rejected, 80);
   // It creeps down the attractor's slope: r' = -mu r / (r^2 + s^2)^(3/2) / c, here for so short a way that it is even.
-  const double crept = 1 / std::pow(1.04, 1.5) / 1e8;
+  const double crept = 1 / pow(1.04, 1.5) / 1e8;
   EXPECT_NEAR(dragged.x[0], 1 - crept, 1e-14);
   EXPECT_NEAR(dragged.x[1], 2e-8, 1e-14);
 
@@ -376,10 +374,10 @@ TEST(ImplicitStep, ReportsThatNoStagesAreFound) {
   Forces forces;
   forces.attractor = {Vec3::Zero(), 1, 0};
   ImplicitStep method;
-  EXPECT_EQ(forces.step(method, 10, Vec3::Zero(), Vec3::Zero(), 1, 1), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(forces.step(method, 10, Vec3::Zero(), Vec3::Zero(), 1, 1), infinity);
   forces.pull[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(forces.step(method, 1, {1, 1, 1}, Vec3::Zero(), 1, 1), std::numeric_limits<double>::infinity());
-  EXPECT_LT(DormandPrince::next_length(1, std::numeric_limits<double>::infinity()), 0.5);
+  EXPECT_EQ(forces.step(method, 1, {1, 1, 1}, Vec3::Zero(), 1, 1), infinity);
+  EXPECT_LT(DormandPrince::next_length(1, infinity), 0.5);
 }
 
 /// The same forces where lengths are `l` and times `t` times as long.
@@ -426,7 +424,7 @@ TEST(ImplicitStep, ErrorIsWhatIsMissedWithinTheStep) {
   Forces forces;
   forces.attractor = {Vec3::Zero(), 1, 0};
   const LongForce exact = [](const Long3& x, const Long3&) {
-    const long double square = x[0] * x[0] + x[1] * x[1], pull = 1 / (square * std::sqrt(square));
+    const long double square = x[0] * x[0] + x[1] * x[1], pull = 1 / (square * sqrt(square));
     return Long3{-pull * x[0], -pull * x[1], 0};
   };
 

@@ -4,11 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <random>
-#include <utility>
 
 namespace carom {
 namespace {
@@ -26,7 +23,7 @@ Moving after(double mu, const Moving& start, double t) {
 }
 
 /// Change of the end by one unit in the last place of each input (m, m/s).
-std::pair<double, double> last_place(double mu, const Moving& start, double t) {
+pair<double, double> last_place(double mu, const Moving& start, double t) {
   constexpr double many = 0x1p16;  // so that the orbit's own rounding does not count
   const Moving plain = after(mu, start, t);
   double x = 0, v = 0;
@@ -39,7 +36,7 @@ std::pair<double, double> last_place(double mu, const Moving& start, double t) {
     x += (m.x - plain.x).squaredNorm();
     v += (m.v - plain.v).squaredNorm();
   }
-  return {std::sqrt(x) / many, std::sqrt(v) / many};
+  return {sqrt(x) / many, sqrt(v) / many};
 }
 
 /// Orbits of every kind: strength, start and a time.
@@ -54,8 +51,8 @@ vector<Case> cases(int count) {
   vector<Case> all;
   for (int n = 0; n < count; ++n) {
     const Vec3 x(any(random), any(random), any(random)), v(any(random), any(random), any(random));
-    const double speed = std::pow(10, 1.5 * any(random));
-    all.push_back({n % 4 == 0 ? -1.0 : 1.0, {x, speed * v}, std::pow(10, 2 * any(random))});
+    const double speed = pow(10, 1.5 * any(random));
+    all.push_back({n % 4 == 0 ? -1.0 : 1.0, {x, speed * v}, pow(10, 2 * any(random))});
   }
   return all;
 }
@@ -206,8 +203,8 @@ TEST(KeplerOrbit, StartsWhereItIs) {
     const Moving m = after(c.mu, c.start, 0), next = after(c.mu, c.start, 1e-300);
     EXPECT_EQ(m.x, c.start.x);
     EXPECT_EQ(m.v, c.start.v);
-    EXPECT_LE((next.x - m.x).norm(), 8 * rounding * m.x.norm());                                // 3.5 at worst
-    EXPECT_LE((next.v - m.v).norm(), 8 * rounding * (m.v.norm() + std::sqrt(2 / m.x.norm())));  // 3.3
+    EXPECT_LE((next.x - m.x).norm(), 8 * rounding * m.x.norm());                           // 3.5 at worst
+    EXPECT_LE((next.v - m.v).norm(), 8 * rounding * (m.v.norm() + sqrt(2 / m.x.norm())));  // 3.3
   }
 }
 
@@ -256,7 +253,7 @@ TEST(KeplerOrbit, ClosesAfterAPeriod) {
     const Moving start = {Vec3(1, 0, 0), Vec3(0, speed, 0)};
     const KeplerOrbit orbit(1, start.x, start.v);
     const double a = 1 / (2 - speed * speed);
-    EXPECT_NEAR(orbit.period(), 2 * pi * a * std::sqrt(a), 6 * rounding * orbit.period());  // 2.6
+    EXPECT_NEAR(orbit.period(), 2 * pi * a * sqrt(a), 6 * rounding * orbit.period());  // 2.6
     for (double turns : {1, 4, 1024}) {
       Moving m;
       orbit.at(turns * orbit.period(), m.x, m.v);
@@ -298,7 +295,7 @@ TEST(KeplerOrbit, IsClosestAtItsPericentre) {
 
 TEST(KeplerOrbit, FallsFromRestInTheTimeOfTheClosedForm) {
   const KeplerOrbit orbit(2, Vec3(0, 0, 3), Vec3::Zero());
-  const double fall = pi * std::sqrt(27.0 / 16);  // pi sqrt(r^3 / (8 mu))
+  const double fall = pi * sqrt(27.0 / 16);  // pi sqrt(r^3 / (8 mu))
   EXPECT_NEAR(orbit.closest_time(), fall, 4 * rounding * fall);
   EXPECT_EQ(orbit.pericentre(), 0);
   Moving m;

@@ -1,7 +1,6 @@
 // Restitution, impact, contact of one body with several surfaces, compensated sums.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 

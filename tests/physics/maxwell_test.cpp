@@ -3,8 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
+
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -16,7 +17,7 @@ double moment(int power, int dimensions, double deviation) {
   double sum = 0;
   for (int i = 0; i < steps; ++i) {
     const double v = (i + 0.5) * width;
-    sum += std::pow(v, power) * maxwell_density(v, dimensions, deviation) * width;
+    sum += pow(v, power) * maxwell_density(v, dimensions, deviation) * width;
   }
   return sum;
 }
@@ -34,9 +35,9 @@ TEST(Maxwell, IsADistributionOfWhichTheMeanSquareIsTheNumberOfDimensions) {
 TEST(Maxwell, HasTheMeanAndThePeakOfTextbooks) {
   // The mean speed is sqrt(8 k T / (pi m)) in three dimensions and sqrt(pi k T / (2 m)) in two.
   // The most probable one is sqrt(2 k T / m) and sqrt(k T / m).
-  EXPECT_NEAR(moment(1, 3, 2), 2 * std::sqrt(8 / std::numbers::pi), 1e-5);
-  EXPECT_NEAR(moment(1, 2, 2), 2 * std::sqrt(std::numbers::pi / 2), 1e-5);
-  for (const auto& [dimensions, peak] : {std::pair{3, 2 * std::sqrt(2.0)}, {2, 2.0}})
+  EXPECT_NEAR(moment(1, 3, 2), 2 * sqrt(8 / std::numbers::pi), 1e-5);
+  EXPECT_NEAR(moment(1, 2, 2), 2 * sqrt(std::numbers::pi / 2), 1e-5);
+  for (const auto& [dimensions, peak] : {pair{3, 2 * sqrt(2.0)}, {2, 2.0}})
     for (const double beside : {0.99, 1.01})
       EXPECT_GT(maxwell_density(peak, dimensions, 2), maxwell_density(beside * peak, dimensions, 2)) << dimensions;
 }

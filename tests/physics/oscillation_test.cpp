@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 
 #include "physics/fading_path.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -127,17 +127,17 @@ TEST(Oscillation, GoesOnFromAnyOfItsPlaces) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> exponent(-2, 2);
   for (int n = 0; n < 2000; ++n) {
-    const double fade = std::pow(10, exponent(random)), stiffness = std::pow(10, exponent(random));
-    const double t1 = std::pow(10, exponent(random)), t2 = std::pow(10, exponent(random));
+    const double fade = pow(10, exponent(random)), stiffness = pow(10, exponent(random));
+    const double t1 = pow(10, exponent(random)), t2 = pow(10, exponent(random));
     Vec3 x, v, y, w, z, u;
     Oscillation{x0, v0, a0, fade, stiffness}.at(t1, x, v);
     // The springs have become slack or stretched on the way.
     Oscillation{x, v, a0 - stiffness * (x - x0), fade, stiffness}.at(t2, y, w);
     Oscillation{x0, v0, a0, fade, stiffness}.at(t1 + t2, z, u);
-    const double reach = v0.norm() / std::sqrt(stiffness) + 2 * a0.norm() / stiffness;
-    const double turned = std::sqrt(stiffness) * (t1 + t2) + 8;
+    const double reach = v0.norm() / sqrt(stiffness) + 2 * a0.norm() / stiffness;
+    const double turned = sqrt(stiffness) * (t1 + t2) + 8;
     EXPECT_LE((y - z).norm(), unit_roundoff * (x0.norm() + turned * reach));  // 0.56 at worst
-    EXPECT_LE((w - u).norm(), unit_roundoff * turned * std::sqrt(stiffness) * reach);
+    EXPECT_LE((w - u).norm(), unit_roundoff * turned * sqrt(stiffness) * reach);
   }
 }
 

@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -26,13 +25,13 @@ TEST(StableStep, OfSwingsAndDecaysIsThatOfTheClosedForm) {
   const double w = 300, c = 7e-5;
   EXPECT_NEAR(stable(Integrator::verlet, w * w, 0), 2 / w, 1e-9 / w);
   EXPECT_NEAR(stable(Integrator::euler, w * w, 0), 2 / w, 1e-9 / w);
-  EXPECT_NEAR(stable(Integrator::rk4, w * w, 0), std::sqrt(8) / w, 2e-9 / w);
+  EXPECT_NEAR(stable(Integrator::rk4, w * w, 0), sqrt(8) / w, 2e-9 / w);
   EXPECT_NEAR(stable(Integrator::verlet, 0, c), 2 / c, 4e-9 / c);
   EXPECT_NEAR(stable(Integrator::euler, 0, c), 2 / c, 4e-9 / c);
   EXPECT_NEAR(stable(Integrator::rk4, 0, c), 2.785293563405282 / c, 6e-9 / c);
   // Euler's method of a damped swing: p h^2 + 2 c h = 4, by the Jury criterion.
   const double p = 40, d = 3;
-  EXPECT_NEAR(stable(Integrator::euler, p, d), (-d + std::sqrt(d * d + 4 * p)) / p, 1e-9);
+  EXPECT_NEAR(stable(Integrator::euler, p, d), (-d + sqrt(d * d + 4 * p)) / p, 1e-9);
 }
 
 TEST(StableStep, IsThatOfTheStiffestDirection) {
@@ -42,7 +41,7 @@ TEST(StableStep, IsThatOfTheStiffestDirection) {
   slopes.by_position += 5000 * Vec3(2, 1, -2) * Vec3(2, 1, -2).transpose() / 9;  // it pushes away
   LinearMode mode;
   EXPECT_NEAR(stable_step(Integrator::verlet, slopes, mode), 2.0 / 30, 1e-9);
-  EXPECT_EQ(stable_step(Integrator::verlet, ForceJacobian{}, mode), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(stable_step(Integrator::verlet, ForceJacobian{}, mode), infinity);
 }
 
 // A step multiplies amplitudes by this factor: 100 steps of rk4 with w h = 1.99 leave 0.751^100 of them.
@@ -60,7 +59,7 @@ TEST(Growth, IsTheFactorOfEachStep) {
 
   const double factor = growth(Integrator::rk4, {w * w, 0}, h);
   EXPECT_NEAR(factor, 0.751, 5e-4);
-  EXPECT_NEAR(std::hypot(x, v / w) / std::pow(factor, 100), 1, 1e-11);
+  EXPECT_NEAR(hypot(x, v / w) / pow(factor, 100), 1, 1e-11);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // Planes with their pattern, and the background.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "raster/shots.h"
 #include "std.h"
 

@@ -1,8 +1,6 @@
 // The kernel that draws a tile: equal bytes in every vector width, and edges against supersampling.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "raster/shots.h"
 #include "std.h"
 

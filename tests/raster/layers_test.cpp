@@ -1,7 +1,6 @@
 // What a pixel shows of several solids, and which share of it.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "raster/shots.h"
@@ -52,7 +51,7 @@ TEST(Layers, OfOpaqueSolidsAreTheNearestOneAlone) {
 TEST(Layers, DoNotDependOnTheOrderOfTheList) {
   Shot shot = with_balls(30);
   const Drawn before = drawn(shot);
-  std::ranges::reverse(shot.solids);
+  ranges::reverse(shot.solids);
   const Drawn after = drawn(shot);
   for_each_pixel(before, [&](int x, int y, const Seen& seen) {
     EXPECT_NEAR((seen.light - after.at(x, y).light).norm(), 0, 1e-4) << x << ' ' << y;

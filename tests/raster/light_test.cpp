@@ -1,8 +1,6 @@
 // The light that solids send to the eye.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "raster/shots.h"
 #include "std.h"
 
@@ -105,10 +103,10 @@ TEST(Light, OnFacesOfABoxIsThatOfTheirNormals) {
     // The face is the farthest out. Close to an edge its tone is another.
     array<double, 3> out{};
     for (size_t k = 0; k < 3; ++k) out[k] = vec(shot.lens.axes[k]).dot(off);
-    std::ranges::sort(out, [](double a, double b) { return std::abs(a) > std::abs(b); });
+    ranges::sort(out, [](double a, double b) { return std::abs(a) > std::abs(b); });
     if (std::abs(out[1]) > 0.3) return;
     const size_t face = static_cast<size_t>(
-        std::ranges::max_element(shot.lens.axes, {}, [&](const Float3& axis) { return std::abs(vec(axis).dot(off)); }) -
+        ranges::max_element(shot.lens.axes, {}, [&](const Float3& axis) { return std::abs(vec(axis).dot(off)); }) -
         shot.lens.axes.begin());
     const Vec3 n = (out[0] < 0 ? -1 : 1) * vec(shot.lens.axes[face]), v = -p.normalized();
     const Vec3 l = vec(shot.lighting.lamps[0].vector);

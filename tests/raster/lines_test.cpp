@@ -1,8 +1,6 @@
 // Lines over a picture: their width, ends, depth and opacity.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "raster/shots.h"
 #include "std.h"
 

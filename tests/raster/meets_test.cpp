@@ -1,8 +1,6 @@
 // Where rays meet solids, against the formulas of textbooks in double precision.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "raster/shots.h"
 #include "std.h"
 

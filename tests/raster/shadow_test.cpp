@@ -1,8 +1,6 @@
 // Which points of a floor the key light reaches, against rays towards it in double precision.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "raster/shots.h"
 #include "std.h"
 
@@ -36,7 +34,7 @@ Vec3 floor_point(const Shot& shot, int x, int y) {
 bool is_blocked(const Shot& shot, const Vec3& p, double scale) {
   const Lamp& lamp = shot.lighting.lamps[0];
   const Vec3 way = lamp.near ? Vec3(vec(lamp.vector) - p) : vec(lamp.vector);
-  return std::ranges::any_of(shot.solids, [&](const Solid& s) {
+  return any_of(shot.solids, [&](const Solid& s) {
     const auto span = inside(shot, s, p, way, scale);
     return span && span->from > 0 && (!lamp.near || span->to < 1);
   });

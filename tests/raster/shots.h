@@ -1,8 +1,6 @@
 #pragma once
 // Pictures for the tests of raster/, and all that a kernel knows of their pixels after it has drawn.
 
-#include <cmath>
-
 #include "raster/polygon.h"
 #include "raster/tile.h"
 #include "raster/tile_memory.h"

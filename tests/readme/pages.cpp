@@ -2,16 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <regex>
 #include <sstream>
-#include <stdexcept>
 
 #include "std.h"
 
@@ -31,7 +27,7 @@ vector<Page> read_pages() {
     for (const auto& entry : fs::recursive_directory_iterator(SOURCE_DIR "/" + folder))
       if (entry.path().extension() == ".md") paths.push_back(fs::relative(entry.path(), SOURCE_DIR).generic_string());
   }
-  std::ranges::sort(paths);
+  ranges::sort(paths);
   paths.insert(paths.begin(), "README.md");
   vector<Page> all;
   for (const string& path : paths) all.push_back(read_page(path));
@@ -117,13 +113,13 @@ string Page::section(const string& heading) const {
 
 vector<string> Page::anchors() const {
   vector<string> found;
-  std::map<string, int> times;
+  map<string, int> times;
   for (const string& line : prose_lines(*this)) {
     const size_t level = level_of(line);
     if (level == 0) continue;
     const string anchor = anchor_of(line.substr(level + 1));
     const int before = times[anchor]++;
-    found.push_back(before == 0 ? anchor : anchor + "-" + std::to_string(before));
+    found.push_back(before == 0 ? anchor : anchor + "-" + to_string(before));
   }
   return found;
 }
@@ -136,7 +132,7 @@ const vector<Page>& pages() {
 const Page& page_at(const string& path) {
   for (const Page& one : pages())
     if (one.path == path) return one;
-  throw std::runtime_error("there is no page " + path);
+  throw runtime_error("there is no page " + path);
 }
 
 string read_file(const fs::path& path) {

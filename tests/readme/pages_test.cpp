@@ -1,13 +1,10 @@
 // The pages: their size, the files, folders and tests that they name, and their links.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <regex>
-#include <set>
 #include <sstream>
 
 #include "readme/pages.h"
@@ -26,7 +23,7 @@ vector<string> matches(const string& text, const std::regex& what, int group = 0
 
 TEST(Pages, TheFirstOneHasAtMost140Lines) {
   const string& text = page_at("README.md").text;
-  EXPECT_LE(std::ranges::count(text, '\n'), 140);
+  EXPECT_LE(ranges::count(text, '\n'), 140);
 }
 
 TEST(Pages, NameOnlyFilesThatAreThere) {
@@ -82,7 +79,7 @@ TEST(Pages, LinksReachPagesFilesAndHeadings) {
           std::find_if(pages().begin(), pages().end(), [&](const Page& other) { return other.path == path; });
       ASSERT_NE(there, pages().end()) << page.path << ": " << i->str();
       const auto anchors = there->anchors();
-      EXPECT_TRUE(std::ranges::count(anchors, anchor.substr(1))) << page.path << ": " << i->str();
+      EXPECT_TRUE(ranges::count(anchors, anchor.substr(1))) << page.path << ": " << i->str();
     }
   }
 
@@ -107,12 +104,12 @@ string first_paragraph(const Page& page) {
 
 TEST(Pages, OfEachSourceFolderBeginWithItsSentenceInTheTable) {
   const std::regex row("\\| \\[(\\w+)/\\]\\(\\w+/README.md\\) \\| ([^|\n]+) \\|\n");
-  std::map<string, string> sentences;
+  map<string, string> sentences;
 
   const string& text = page_at("src/README.md").text;
   for (std::sregex_iterator i(text.begin(), text.end(), row), end; i != end; ++i) sentences[(*i)[1]] = (*i)[2];
 
-  std::set<string> folders;
+  set<string> folders;
   for (const auto& entry : fs::directory_iterator(root / "src"))
     if (entry.is_directory()) folders.insert(entry.path().filename());
   for (const string& folder : folders) EXPECT_TRUE(sentences.contains(folder)) << folder;
@@ -127,9 +124,9 @@ TEST(Pages, OfEachSourceFolderBeginWithItsSentenceInTheTable) {
 }
 
 /// The suite and the name of every test in the sources, as "Suite.Name".
-std::set<string> all_tests() {
+set<string> all_tests() {
   static const std::regex test(R"(TEST(?:_[PF])?\(\s*(\w+),\s*(\w+)\s*\))");
-  std::set<string> found;
+  set<string> found;
   for (const auto& entry : fs::recursive_directory_iterator(root / "tests")) {
     if (entry.path().extension() != ".cpp") continue;
     const string text = read_file(entry.path());
@@ -141,7 +138,7 @@ std::set<string> all_tests() {
 
 TEST(PageOfPromises, NamesTestsThatAreThere) {
   const string& text = page_at("output/README.md").text;
-  const std::set<string> tests = all_tests();
+  const set<string> tests = all_tests();
   static const std::regex name(R"(`(?:\w+/)?([A-Z]\w*\.)(\w*)(\*?)`)");
   size_t named = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), name), end; it != end; ++it, ++named) {

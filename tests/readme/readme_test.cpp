@@ -5,15 +5,12 @@
 #include <png.h>
 #include <sys/wait.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <set>
 #include <sstream>
 
 #include "bench/bench.h"
@@ -126,15 +123,15 @@ nlohmann::json slips() {
 }
 
 /// Column names in the first line of a CSV file.
-std::set<string> header_of(const fs::path& path) {
+set<string> header_of(const fs::path& path) {
   const string text = read_file(path), line = text.substr(0, text.find('\n'));
   const std::regex name("[^,\r]+");
-  return std::set<string>(std::sregex_token_iterator(line.begin(), line.end(), name), {});
+  return set<string>(std::sregex_token_iterator(line.begin(), line.end(), name), {});
 }
 
 /// Column names in the first cells of the table with this beginning.
-std::set<string> columns_in(const Page& page, const string& head) {
-  std::set<string> found;
+set<string> columns_in(const Page& page, const string& head) {
+  set<string> found;
   bool inside = false;
   for (const string& line : lines_of(page.text)) {
     inside = line == head || (inside && line.starts_with("|"));
@@ -211,10 +208,10 @@ TEST(PageCommands, OfDevAreThoseOfDev) {
   const string script = read_file(SOURCE_DIR "/dev"), usage = script.substr(0, script.find("\nEND\n"));
   const std::regex row("\\| `\\./dev (\\w+)"), line("\n  (\\w+)  *(\\[|[A-Z]|  )"), named("\\./dev ([a-z]+)");
   const auto all = [](const string& text, const std::regex& what) {
-    return std::set<string>(std::sregex_token_iterator(text.begin(), text.end(), what, 1), {});
+    return set<string>(std::sregex_token_iterator(text.begin(), text.end(), what, 1), {});
   };
 
-  const std::set<string> known = all(usage, line);
+  const set<string> known = all(usage, line);
   EXPECT_EQ(all(page_at("tests/README.md").section("All commands of ./dev"), row), known);
 
   for (const Page& page : pages()) {
@@ -230,12 +227,12 @@ TEST(PageCommands, OfDevAreThoseOfDev) {
 TEST(PageCommands, OfCmakeUsePresetsThatAreThere) {
   const auto presets = nlohmann::json::parse(std::ifstream(SOURCE_DIR "/CMakePresets.json"));
   const auto names = [&](const char* kind) {
-    std::set<string> all;
+    set<string> all;
     for (const auto& preset : presets[kind]) all.insert(preset["name"].get<string>());
     return all;
   };
   const auto all = commands(page_at("README.md"));
-  EXPECT_TRUE(std::ranges::count(all, "cmake --preset release && cmake --build --preset release") == 1);
+  EXPECT_TRUE(ranges::count(all, "cmake --preset release && cmake --build --preset release") == 1);
   EXPECT_TRUE(names("configurePresets").contains("release"));
   EXPECT_TRUE(names("buildPresets").contains("release"));
 }
@@ -266,7 +263,7 @@ TEST(ReadmePicture, IsWhatTheProgramDraws) {
   ASSERT_LT(fs::file_size(SCENES_DIR "/billiard_break.png"), 200'000u);
   const Clone clone;
   const auto all = commands(page_at("README.md"));
-  const auto command = std::ranges::find_if(all, [](const auto& c) { return c.ends_with("-o output/picture"); });
+  const auto command = ranges::find_if(all, [](const auto& c) { return c.ends_with("-o output/picture"); });
   ASSERT_NE(command, all.end());
   ASSERT_EQ(clone.run(*command), 0) << clone.err();
   const Pixels kept = read_png(SCENES_DIR "/billiard_break.png");
@@ -300,16 +297,16 @@ TEST(ReadmeBench, TableHasTheErrorsThatAreMeasured) {
   for (std::sregex_iterator i(text.begin(), text.end(), line), end; i != end; ++i, ++lines) {
     const string name = (*i)[1], per_second = (*i)[2];
 
-    const auto row = std::ranges::find_if(result.rows, [&](const BenchRow& r) {
+    const auto row = ranges::find_if(result.rows, [&](const BenchRow& r) {
       if (r.method.engine == Engine::exact) return name == "exact";
       return name == name_of(r.method.integrator) &&
-             per_second == std::to_string(std::lround(1 / r.method.steps.length.value_or(1e9)));
+             per_second == to_string(std::lround(1 / r.method.steps.length.value_or(1e9)));
     });
     ASSERT_NE(row, result.rows.end()) << name << " 1/" << per_second;
 
     const Differences& errors = *row->errors;
     for (const auto& [stated, measured] :
-         {std::pair((*i)[3], errors.position), std::pair((*i)[4], errors.velocity), std::pair((*i)[5], errors.energy)})
+         {pair((*i)[3], errors.position), pair((*i)[4], errors.velocity), pair((*i)[5], errors.energy)})
       EXPECT_NEAR(std::stod(stated), measured, 0.05 * measured) << name << " 1/" << per_second;
   }
   EXPECT_EQ(lines, 7);
@@ -344,8 +341,7 @@ TEST(ReadmeScenes, DescribeEveryKey) {
 
 TEST(ReadmeScenes, TheExampleOfColoursAndTextIsAScene) {
   const vector<string> blocks = page_at("scenes/pictures.md").blocks("yaml");
-  const auto block =
-      std::ranges::find_if(blocks, [](const string& text) { return text.find("caption:") != string::npos; });
+  const auto block = ranges::find_if(blocks, [](const string& text) { return text.find("caption:") != string::npos; });
   ASSERT_NE(block, blocks.end());
   const Scene scene = scene_of("scene: 1\nsimulate: {duration: 1}\nballs: {red: {position: [0, 0, 0]}}\n" + *block);
   EXPECT_EQ(scene.overlay.caption, "{title}, t = {time} s, e = 1");
@@ -353,13 +349,13 @@ TEST(ReadmeScenes, TheExampleOfColoursAndTextIsAScene) {
 }
 
 TEST(ReadmeScenes, RulesOfRestitutionGiveTheTablesNumbers) {
-  const std::map<string, Combine> rules = {{"| `average` (default) | ", Combine::average},
-                                           {"| `minimum` | ", Combine::minimum},
-                                           {"| `maximum` | ", Combine::maximum},
-                                           {"| `product` | ", Combine::product},
-                                           {"| `geometric_mean` | ", Combine::geometric_mean},
-                                           {"here 1 kg and 3 kg | ", Combine::mass_weighted},
-                                           {"| `book`, e1 e2 / 2 | ", Combine::book}};
+  const map<string, Combine> rules = {{"| `average` (default) | ", Combine::average},
+                                      {"| `minimum` | ", Combine::minimum},
+                                      {"| `maximum` | ", Combine::maximum},
+                                      {"| `product` | ", Combine::product},
+                                      {"| `geometric_mean` | ", Combine::geometric_mean},
+                                      {"here 1 kg and 3 kg | ", Combine::mass_weighted},
+                                      {"| `book`, e1 e2 / 2 | ", Combine::book}};
   for (const auto& [row, rule] : rules)
     EXPECT_NEAR(combine_restitution(rule, 0.9, 1, 0.5, 3), stated(row), 1e-15) << row;
 }
@@ -411,7 +407,7 @@ TEST(ReadmeOptions, AreThoseOfTheHelp) {
   ASSERT_EQ(clone.run("build/release/carom run --help"), 0);
   const std::regex option("--[a-z]+");
   const auto all = [&](const string& text) {
-    return std::set<string>(std::sregex_token_iterator(text.begin(), text.end(), option), {});
+    return set<string>(std::sregex_token_iterator(text.begin(), text.end(), option), {});
   };
   string rows;
   for (const string& line : lines_of(page_at("output/README.md").section("Options and exit codes")))
@@ -469,7 +465,7 @@ simulate: {duration: 0.5}
   // It leaves at y = 2/3 of its first height, 0.384 m, with v^2 = 2 g (0.576 - 0.384), level with the tangent there.
   // From then on the path is a parabola: its vertex gives the start.
   const State end = run_to(scene, 0.5);
-  const double g = 10, y0 = 0.384, x0 = std::sqrt(0.36 - y0 * y0), v = std::sqrt(2 * g * (0.576 - y0));
+  const double g = 10, y0 = 0.384, x0 = sqrt(0.36 - y0 * y0), v = sqrt(2 * g * (0.576 - y0));
   const double vx = v * y0 / 0.6, vy = -v * x0 / 0.6;
   EXPECT_NEAR(end.velocity[0].x(), vx, 1e-8);
   const double t = (end.position[0].x() - x0) / vx;
@@ -500,7 +496,7 @@ TEST(ReadmeBook, ScenesGiveTheNumbersItNames) {
     const Scene scene = load_scene(string(SCENES_DIR "/") + file);
     const auto simulator = make_simulator(scene, {.collisions = true});
     while (simulator->time() < scene.simulate.duration) simulator->advance_to(scene.simulate.duration);
-    return std::pair(simulator->tally(), kinetic_energy(scene.world, simulator->state()));
+    return pair(simulator->tally(), kinetic_energy(scene.world, simulator->state()));
   };
 
   const auto text = last("book_bowling_balls.yaml"), exact = last("two_bowling_balls.yaml"),

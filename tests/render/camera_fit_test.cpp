@@ -3,10 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "render/eye.h"
 #include "render/scenes.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -32,7 +31,7 @@ class Filled {
 
  private:
   static double tangent(double across, double depth, double radius) {
-    return std::tan(std::atan2(across, depth) + std::asin(radius / std::hypot(across, depth)));
+    return std::tan(std::atan2(across, depth) + std::asin(radius / hypot(across, depth)));
   }
 
   Eye eye_;
@@ -57,8 +56,8 @@ Camera camera_for(const Scene& scene, double duration, const Position& position)
 
 /// A marble bounces down a stair for 3 s.
 Vec3 marble(Entity, double t) {
-  const double hop = t - 0.5 * std::floor(t / 0.5);
-  return Vec3(1.5 * t, 3 - std::floor(t / 0.5) * 0.4 + 2 * hop * (1 - 2 * hop), 0.1 * t);
+  const double hop = t - 0.5 * floor(t / 0.5);
+  return Vec3(1.5 * t, 3 - floor(t / 0.5) * 0.4 + 2 * hop * (1 - 2 * hop), 0.1 * t);
 }
 
 Scene one_ball(double radius = 0.05) {
@@ -84,7 +83,7 @@ TEST(CameraFit, TouchesBothMarginsOfTheTighterSide) {
   double bottom = 0, top = 0;
   for (int i = 0; i <= 90; ++i) {
     const Vec3 p = eye.point(marble(0, i / 30.0));
-    const double turn = std::asin(0.05 / std::hypot(p.y(), p.z())), at = std::atan2(p.y(), p.z());
+    const double turn = std::asin(0.05 / hypot(p.y(), p.z())), at = std::atan2(p.y(), p.z());
     bottom = std::min(bottom, std::tan(at - turn));
     top = std::max(top, std::tan(at + turn));
   }
@@ -231,7 +230,7 @@ TEST(CameraFit, OfBodiesThatAllFlyApartHalfStayInView) {
   Scene scene;
   for (int i = 0; i < 9; ++i) test::add_ball(scene, Vec3::Zero(), 0.001, test::red);
   const auto apart = [](Entity body, double t) {
-    const double speed = std::pow(2, body);
+    const double speed = pow(2, body);
     return Vec3(speed * t * std::cos(2.4 * body), 0, speed * t * std::sin(2.4 * body));
   };
   const Camera camera = camera_for(scene, 10, apart);

@@ -112,9 +112,9 @@ TEST(DrawnMesh, CastsItsOwnOutlineInParallelLight) {
 
   const auto light = [&](double x, double z) { return test::grey_at(image, scene, Vec3(x, 0, z)); };
   const double open = light(-2, 0);
-  for (const auto& [x, z] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.85, -0.15}, {-0.15, 0.85}})
+  for (const auto& [x, z] : {pair{-0.5, -0.5}, {0.5, -0.5}, {-0.5, 0.5}, {0.85, -0.15}, {-0.15, 0.85}})
     EXPECT_LT(light(x, z), 0.55 * open) << x << ' ' << z;
-  for (const auto& [x, z] : {std::pair{0.5, 0.5}, {0.12, 0.12}, {1.1, -0.5}, {-0.5, 1.1}})  // blur: 0.09 m
+  for (const auto& [x, z] : {pair{0.5, 0.5}, {0.12, 0.12}, {1.1, -0.5}, {-0.5, 1.1}})  // blur: 0.09 m
     EXPECT_GT(light(x, z), 0.75 * open) << x << ' ' << z;
 
   // And on a ball below.

@@ -13,11 +13,11 @@ namespace {
 using test::grey;
 
 double encode(double light) {
-  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055);
+  return 255 * (light <= 0.0031308 ? 12.92 * light : 1.055 * pow(light, 1 / 2.4) - 0.055);
 }
 
 /// Position of a point in the picture.
-std::pair<int, int> pixel_of(const Scene& scene, Size size, const Vec3& p) {
+pair<int, int> pixel_of(const Scene& scene, Size size, const Vec3& p) {
   const Eye eye(camera_of(scene), size);
   const Vec3 q = eye.point(p);
   return {static_cast<int>(size.width / 2.0 + q.x() / q.z() / eye.pixel),
@@ -105,7 +105,7 @@ TEST(Shadow, ItsPenumbraGrowsWithTheWayToTheFloor) {
       const auto [px, py] = pixel_of(scene, size, Vec3(x, 0, 0));
       const auto decoded = [&, px = px, py = py](const Image& seen) {
         const double c = grey(seen, px, py) / 255;
-        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+        return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
       };
       return decoded(image) / decoded(open);
     };
@@ -185,8 +185,7 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
   away.position[0] = Vec3(3, 0.5, 0);
   // Of the sky cos (r / d)^2 = 0.304 is hidden. By the formula of surround.inc 0.741 of its light is left, and the ball
   // sends 0.074 of red.
-  EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), (std::pow(0.815, 1 / 2.4) + 2 * std::pow(0.741, 1 / 2.4)) / 3,
-              0.01);
+  EXPECT_NEAR(dark / grey(renderer.draw(away), x, y), (pow(0.815, 1 / 2.4) + 2 * pow(0.741, 1 / 2.4)) / 3, 0.01);
 }
 
 TEST(Glow, OfADarkBodyIsAsBrightAsOfALightOne) {

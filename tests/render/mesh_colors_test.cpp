@@ -1,7 +1,6 @@
 // Meshes in the colours of their files, in pictures.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "numerics/srgb.h"

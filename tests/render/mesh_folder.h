@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 
 #include "render/mesh.h"
 #include "std.h"
@@ -36,7 +34,7 @@ string trouble_of(Read read, const string& path, const MeshLimits& limits) {
   try {
     read(path, limits);
     return "";
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     const string text = error.what(), start = "cannot read the mesh " + path + ": ";
     EXPECT_EQ(text.substr(0, start.size()), start);
     return text.substr(std::min(start.size(), text.size()));

@@ -1,7 +1,6 @@
 // Materials and textures of mesh files: what is read, and errors.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <limits>
 
 namespace carom {
 namespace {
@@ -46,7 +45,7 @@ string refusal(const function<void(Reply&)>& damage) {
   try {
     received(reply.bytes());
     return "";
-  } catch (const std::runtime_error& error) {
+  } catch (const runtime_error& error) {
     return error.what();
   }
 }
@@ -101,7 +100,7 @@ TEST(MeshReply, EveryDamageOfThePaintIsFound) {
 TEST(MeshReply, TexturesHaveALimitInAll) {
   MeshLimits limits;
   limits.texture_bytes = 7;
-  EXPECT_THROW(received(Reply{}.bytes(), limits), std::runtime_error);
+  EXPECT_THROW(received(Reply{}.bytes(), limits), runtime_error);
 }
 
 }  // namespace

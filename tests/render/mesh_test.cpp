@@ -139,9 +139,9 @@ TEST(ReadMesh, PolygonsAreCutCornersJoinedAndRoundedShapesSmooth) {
   EXPECT_EQ(square.triangles.size(), 6U);
   EXPECT_EQ(square.vertices.size(), 4U);
   // A ridge of 60 degrees has two normals along its edge, one of 20 degrees has one.
-  for (const auto& [height, vertices] : {std::pair{0.577, 6U}, {0.176, 4U}}) {
-    const string text = "v 0 0 0\nv 0 0 1\nv 1 -" + std::to_string(height) + " 0\nv -1 -" + std::to_string(height) +
-                        " 0\nf 1 2 3\nf 2 1 4\n";
+  for (const auto& [height, vertices] : {pair{0.577, 6U}, {0.176, 4U}}) {
+    const string text =
+        "v 0 0 0\nv 0 0 1\nv 1 -" + to_string(height) + " 0\nv -1 -" + to_string(height) + " 0\nf 1 2 3\nf 2 1 4\n";
     EXPECT_EQ(read_mesh(folder.write("b.obj", text)).vertices.size(), vertices) << height;
   }
 }
@@ -158,7 +158,7 @@ TEST(ReadMesh, ThePinHasItsPublishedSize) {
   double low = 1, high = -1, radius = 0;
   for (const Vec3& p : read_mesh_points(scenes + "pin.obj")) {
     low = std::min(low, p.y()), high = std::max(high, p.y());
-    radius = std::max(radius, std::hypot(p.x(), p.z()));
+    radius = std::max(radius, hypot(p.x(), p.z()));
   }
   EXPECT_EQ(low, 0);
   EXPECT_NEAR(high, 15 * 0.0254, 1e-6);
@@ -199,7 +199,7 @@ TEST(ReadMesh, RefusesMoreThanItsLimits) {
   MeshLimits small;
   small.file_bytes = 1000;
   EXPECT_EQ(trouble(pin, small),
-            "it has " + std::to_string(std::filesystem::file_size(pin)) + " bytes; at most 1000 are read");
+            "it has " + to_string(std::filesystem::file_size(pin)) + " bytes; at most 1000 are read");
   MeshLimits few;
   few.vertices = 100;
   EXPECT_EQ(trouble(pin, few), "it has more than 100 vertices");
@@ -232,8 +232,8 @@ TEST(ReadMesh, TooLittleMemoryIsReported) {
   NOT_WITH_SANITIZERS();
   const MeshFolder folder;
   string text;
-  for (int i = 0; i < 150'000; ++i) text += "v " + std::to_string(i) + " 0 0\n";
-  for (int i = 3; i < 150'000; ++i) text += "f 1 2 " + std::to_string(i) + "\n";
+  for (int i = 0; i < 150'000; ++i) text += "v " + to_string(i) + " 0 0\n";
+  for (int i = 3; i < 150'000; ++i) text += "f 1 2 " + to_string(i) + "\n";
   MeshLimits limits;
   limits.memory_bytes = 10'000'000;
   EXPECT_EQ(trouble(folder.write("large.obj", text), limits), "reading it takes too much memory");
@@ -253,7 +253,7 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
 
   const string pin = bytes_of(scenes + "pin.obj").substr(0, 700) + "f 1 2 3\nf 4 5 6\n";
   int read = 0, refused = 0;
-  for (const auto& [ending, bytes] : {std::pair{"stl", bytes_of(data + "tetrahedron.stl")},
+  for (const auto& [ending, bytes] : {pair{"stl", bytes_of(data + "tetrahedron.stl")},
                                       {"gltf", bytes_of(data + "turned_cube.gltf")},
                                       {"glb", bytes_of(data + "turned_cube.glb")},
                                       {"obj", pin}}) {
@@ -291,10 +291,10 @@ TEST(ReadMesh, MutatedFilesGiveAMeshOrAText) {
 }
 
 TEST(ReadMesh, LeavesNoProcessBehind) {
-  const string before = bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children");
+  const string before = bytes_of("/proc/self/task/" + to_string(getpid()) + "/children");
   trouble(scenes + "pin.obj");
   trouble("/none.obj");
-  EXPECT_EQ(bytes_of("/proc/self/task/" + std::to_string(getpid()) + "/children"), before);
+  EXPECT_EQ(bytes_of("/proc/self/task/" + to_string(getpid()) + "/children"), before);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -274,7 +273,7 @@ TEST(Glb, ACameraThatStandsStillHasNone) {
 }
 
 TEST(Glb, ASceneOfNothingIsAnError) {
-  EXPECT_THROW(glb(Scene{}, {}), std::runtime_error);
+  EXPECT_THROW(glb(Scene{}, {}), runtime_error);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #pragma once
 // The outline of a solid in a picture, by projecting its corners, to compare pictures with.
-#include <algorithm>
-#include <cmath>
 
 #include "render/eye.h"
 #include "render/scenes.h"
@@ -31,7 +29,7 @@ inline double side(const Point& a, const Point& b, const Point& p) {
 
 /// The convex hull, by the monotone chain (Andrew 1979).
 inline vector<Point> hull_of(vector<Point> points) {
-  std::ranges::sort(points, [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  ranges::sort(points, [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   vector<Point> hull;
   for (int half = 0; half < 2; ++half) {
     const size_t start = hull.size();
@@ -40,7 +38,7 @@ inline vector<Point> hull_of(vector<Point> points) {
       hull.push_back(p);
     }
     hull.pop_back();
-    std::ranges::reverse(points);
+    ranges::reverse(points);
   }
   return hull;
 }
@@ -50,7 +48,7 @@ inline double outside(const vector<Point>& hull, const Point& p) {
   double most = -1e9;
   for (size_t i = 0; i < hull.size(); ++i) {
     const Point &a = hull[i], &b = hull[(i + 1) % hull.size()];
-    most = std::max(most, -side(a, b, p) / std::hypot(b.x - a.x, b.y - a.y));
+    most = std::max(most, -side(a, b, p) / hypot(b.x - a.x, b.y - a.y));
   }
   return most;
 }

@@ -45,24 +45,22 @@ Blob expected_blob(const Scene& scene, Size size, const Vec3& center, double rad
   const Eye eye(*scene.camera, size);
   Outline o{};
   EXPECT_TRUE(outline_of(eye.point(center), radius, o));
-  const double a = std::hypot(o.ax, o.ay), b = std::hypot(o.bx, o.by);
+  const double a = hypot(o.ax, o.ay), b = hypot(o.bx, o.by);
   return {size.width / 2.0 + o.x / eye.pixel, size.height / 2.0 - o.y / eye.pixel,
-          M_PI * a * b / (eye.pixel * eye.pixel), 2 * std::hypot(o.ax, o.bx) / eye.pixel,
-          2 * std::hypot(o.ay, o.by) / eye.pixel};
+          M_PI * a * b / (eye.pixel * eye.pixel), 2 * hypot(o.ax, o.bx) / eye.pixel, 2 * hypot(o.ay, o.by) / eye.pixel};
 }
 
 TEST(Outline, AlongTheAxisItsRadiusIsTheTangentOfTheTangentCone) {
   Outline o{};
   ASSERT_TRUE(outline_of(Vec3(0, 0, 5), 3, o));  // sin = 3/5, tan = 3/4
-  EXPECT_DOUBLE_EQ(std::hypot(o.ax, o.ay), 0.75);
-  EXPECT_DOUBLE_EQ(std::hypot(o.bx, o.by), 0.75);
+  EXPECT_DOUBLE_EQ(hypot(o.ax, o.ay), 0.75);
+  EXPECT_DOUBLE_EQ(hypot(o.bx, o.by), 0.75);
   EXPECT_FALSE(outline_of(Vec3(0, 5, 1), 2, o));
 }
 
 TEST(Disc, IsWhereTheProjectionPutsIt) {
   const Size size{400, 300};
-  for (const auto& [center, fov] :
-       {std::pair{Vec3(0, 0, 0), 45.0}, {Vec3(1.1, 0.6, 0.4), 45.0}, {Vec3(4, 2.5, 0), 100.0}}) {
+  for (const auto& [center, fov] : {pair{Vec3(0, 0, 0), 45.0}, {Vec3(1.1, 0.6, 0.4), 45.0}, {Vec3(4, 2.5, 0), 100.0}}) {
     Scene scene = flat_scene(Vec3(0, 0, 5), Vec3::Zero(), fov);
     add_ball(scene, center, 0.7, white);
     Renderer renderer(scene, size, 1);
@@ -87,7 +85,7 @@ TEST(Disc, SmoothEdgesCoverAsMuchAsTheDisc) {
     double light = 0, most = 0;
     for (uint8_t byte : image.pixels) {
       const double c = byte / 255.0;
-      light += c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+      light += c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
     }
     // Ambient light from halfway up, without what the rim reflects of the black background: 0.46 (1 - cos)^5, whose
     // mean over a disc is 0.46 / 21.

@@ -169,8 +169,7 @@ TEST(Size, BeyondWhatCanBeDrawnIsRefused) {
       Renderer renderer(scene, size, 4);
       ADD_FAILURE() << size.width << " x " << size.height;
     } catch (const RenderError& error) {
-      EXPECT_EQ(string(error.what()), "a picture of " + std::to_string(size.width) + " x " +
-                                          std::to_string(size.height) +
+      EXPECT_EQ(string(error.what()), "a picture of " + to_string(size.width) + " x " + to_string(size.height) +
                                           " pixels cannot be drawn: each side can be 1 to 16384");
     }
   }

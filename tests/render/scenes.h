@@ -1,6 +1,5 @@
 #pragma once
 // Scenes made in code, and ways to measure pictures.
-#include <cmath>
 
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -18,7 +17,7 @@ inline Entity add_ball(Scene& scene, const Vec3& position, double radius, const 
   scene.initial.position.push_back(position);
   scene.initial.velocity.push_back(Vec3::Zero());
   if (!scene.world.volume.empty()) scene.world.volume.push_back(Volume::sphere(radius));
-  scene.roster.bodies.push_back({"b" + std::to_string(e), e, 1, false, color});
+  scene.roster.bodies.push_back({"b" + to_string(e), e, 1, false, color});
   return e;
 }
 
@@ -36,20 +35,20 @@ inline Entity add_body(Scene& scene, const Vec3& position, const Volume& volume,
 inline void add_obstacle(Scene& scene, const Vec3& center, const Volume& volume, const Color& color,
                          bool visible = true) {
   scene.world.obstacles.push_back({center, volume, {}});
-  scene.roster.fixed.push_back({"o" + std::to_string(scene.world.obstacles.size()), color, visible});
+  scene.roster.fixed.push_back({"o" + to_string(scene.world.obstacles.size()), color, visible});
 }
 
 inline void add_plane(Scene& scene, const Vec3& point, const Vec3& normal, const Color& color, bool visible = true) {
   scene.world.planes.push_back({point, normal.normalized(), {}});
   scene.roster.fixed.insert(scene.roster.fixed.begin() + static_cast<ptrdiff_t>(scene.world.planes.size() - 1),
-                            {"p" + std::to_string(scene.world.planes.size()), color, visible});
+                            {"p" + to_string(scene.world.planes.size()), color, visible});
 }
 
 inline void add_wall(Scene& scene, const Vec3& center, const Vec3& normal, const Vec3& up, double width, double height,
                      const Color& color) {
   const Vec3 n = normal.normalized(), right = up.cross(n).normalized();
   scene.world.walls.push_back({center, n, right, n.cross(right), width / 2, height / 2, {}});
-  scene.roster.fixed.push_back({"w" + std::to_string(scene.world.walls.size()), color, true});
+  scene.roster.fixed.push_back({"w" + to_string(scene.world.walls.size()), color, true});
 }
 
 /// The six inward planes of a room.

@@ -2,10 +2,6 @@
 // from the origin.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "run/accuracy.h"
 #include "run/contact_scenes.h"
 #include "slow_with_sanitizers.h"
@@ -72,8 +68,8 @@ Scene conical(double down, double out, double duration) {
   scene.world.radius = {0.05};
   scene.world.restitution = {1};
   scene.initial.position = {Vec3(out, -down, 0)};
-  scene.initial.velocity = {Vec3(0, 0, out * std::sqrt(9.75 / down))};
-  scene.world.strings = {{0, no_entity, Vec3::Zero(), std::hypot(down, out)}};
+  scene.initial.velocity = {Vec3(0, 0, out * sqrt(9.75 / down))};
+  scene.world.strings = {{0, no_entity, Vec3::Zero(), hypot(down, out)}};
   scene.simulate.duration = duration;
   return scene;
 }
@@ -81,8 +77,8 @@ Scene conical(double down, double out, double duration) {
 // Small speeds along the string that count as rounding shorten it. Measured: 1.0 times.
 TEST(ContactAccuracy, OfAConicalPendulumContainsTheErrorsOfAllSteps) {
   SLOW_WITH_SANITIZERS();
-  for (const auto& [down, duration] : {std::pair(0.8, 500.0), std::pair(0.2, 100.0)}) {
-    const double out = std::sqrt(1 - down * down), angle = duration * std::sqrt(9.75 / down);
+  for (const auto& [down, duration] : {pair(0.8, 500.0), pair(0.2, 100.0)}) {
+    const double out = sqrt(1 - down * down), angle = duration * sqrt(9.75 / down);
     const SceneWithTruth of{
         "", conical(down, out, duration), {Vec3(out * std::cos(angle), -down, out * std::sin(angle))}};
     const double error = of.error(), stated = stated_error(of.scene);

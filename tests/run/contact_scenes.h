@@ -1,8 +1,6 @@
 #pragma once
 // Random scenes of bodies in lasting contact, on strings and rods, and at far places, with their true motion: by an
 // independent method (simulate/constrained_reference.h), or impact by impact in 64-bit mantissas.
-#include <algorithm>
-#include <cmath>
 
 #include "physics/world.h"
 #include "run/engine.h"
@@ -68,7 +66,7 @@ class ContactScenes {
   using Real = ConstrainedReference::Real;
   using Vec = ConstrainedReference::Vec;
 
-  double decades(double from, double to) { return std::pow(10.0, random_(from, to)); }
+  double decades(double from, double to) { return pow(10.0, random_(from, to)); }
   Vec3 far_place() {
     Vec3 place = Vec3::Zero();
     for (double& x : place)
@@ -120,7 +118,7 @@ class ContactScenes {
       step *= 0.5;
       const ConstrainedReference::Motion finer = reference_.follow(motion.time, step);
       if (finer.time < motion.time) return {};
-      before = std::exchange(off, 0);
+      before = exchange(off, 0);
       for (size_t k = 0; k < motion.x.size(); ++k) off = std::max(off, (finer.x[k] - motion.x[k]).norm());
       motion = finer;
     }
@@ -131,16 +129,16 @@ class ContactScenes {
     const double length = decades(-1, 1), turn = random_(0, 6);
     const Vec3 out(std::cos(turn), 0, std::sin(turn)), down(0, -1, 0);
     ball(length * (std::sin(angle) * out + std::cos(angle) * down), length * decades(-3, -1), decades(-2, 2),
-         random_(0, 0.5) * angle * std::sqrt(9.75 * length) * out.cross(down));
+         random_(0, 0.5) * angle * sqrt(9.75 * length) * out.cross(down));
     reference_.ties.push_back({0, ConstrainedReference::none, at_});
-    const double swing = 2 * M_PI * std::sqrt(length / 9.75);
+    const double swing = 2 * M_PI * sqrt(length / 9.75);
     return follow("pendulum", decades(-0.5, 1.3) * swing, swing / 32);
   }
 
   optional<SceneWithTruth> conical() {
     const double length = decades(-1, 1), angle = random_(0.1, 1.2), turn = random_(0, 6);
     const Vec3 out(std::cos(turn), 0, std::sin(turn)), down(0, -1, 0);
-    const double rate = std::sqrt(9.75 / (length * std::cos(angle)));
+    const double rate = sqrt(9.75 / (length * std::cos(angle)));
     ball(length * (std::sin(angle) * out + std::cos(angle) * down), length * decades(-3, -1), decades(-2, 2),
          rate * length * std::sin(angle) * out.cross(down));
     reference_.ties.push_back({0, ConstrainedReference::none, at_});
@@ -165,8 +163,8 @@ class ContactScenes {
     const double angle = decades(-9, -0.5);
     ball(sum * Vec3(std::sin(angle), std::cos(angle), 0), radius, decades(-2, 2));
     reference_.globes.push_back({at_, globe});
-    const double time = std::sqrt(sum / 9.75);
-    return follow("ball on a globe", (random_(0.2, 1) * std::log(4 / angle) + 0.3) * time, 0.05 * time);
+    const double time = sqrt(sum / 9.75);
+    return follow("ball on a globe", (random_(0.2, 1) * log(4 / angle) + 0.3) * time, 0.05 * time);
   }
 
   optional<SceneWithTruth> off_a_ball() {
@@ -175,8 +173,8 @@ class ContactScenes {
     ball({0, lower, 0}, lower, decades(-1, 1));
     ball(Vec3(0, lower, 0) + sum * Vec3(std::sin(angle) * 0.6, std::cos(angle), std::sin(angle) * 0.8), upper,
          decades(-1, 1));
-    const double time = std::sqrt(sum / 9.75);
-    return follow("ball on a ball", random_(0.2, 1.2) * std::log(4 / angle) * time, 0.05 * time);
+    const double time = sqrt(sum / 9.75);
+    return follow("ball on a ball", random_(0.2, 1.2) * log(4 / angle) * time, 0.05 * time);
   }
 
   optional<SceneWithTruth> train() {
@@ -197,15 +195,15 @@ class ContactScenes {
     ball({radius, radius + length * std::cos(angle), 0}, radius, decades(-1, 1));
     ball({radius + length * std::sin(angle), radius, 0}, radius, decades(-1, 1));
     reference_.ties.push_back({0, 1, Vec3::Zero(), true});
-    const double time = std::sqrt(length / 9.75);
-    return follow("ladder", random_(0.2, 1.2) * std::log(4 / angle) * time, 0.05 * time);
+    const double time = sqrt(length / 9.75);
+    return follow("ladder", random_(0.2, 1.2) * log(4 / angle) * time, 0.05 * time);
   }
 
   /// A ball bounces on a fixed one without loss.
   optional<SceneWithTruth> bouncing() {
     const double globe = decades(-1, 0), radius = globe * decades(-1, 0), sum = globe + radius;
     const double offset = decades(-10, -1) * sum, drop = random_(0.5, 1) * sum;
-    const double time = std::sqrt(2 * drop / 9.75);
+    const double time = sqrt(2 * drop / 9.75);
 
     ball({offset, sum + drop, 0}, radius, 1);
     reference_.globes.push_back({at_, globe});

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "run/engine.h"
@@ -36,7 +35,7 @@ TEST(PathExtremes, OfAParabolaAreItsVertexAndItsEnds) {
   const Extremes speed = extremes_of(yaml, Quantity::speed);
   EXPECT_NEAR(speed.least.value, 3, 1e-15);
   EXPECT_NEAR(speed.least.time, 5 / g, 1e-15);
-  EXPECT_NEAR(speed.greatest.value, std::hypot(3, 5 - 1.5 * g), 1e-14);
+  EXPECT_NEAR(speed.greatest.value, hypot(3, 5 - 1.5 * g), 1e-14);
   EXPECT_NEAR(extremes_of(yaml, Quantity::kinetic).least.value, 9, 1e-14);
   EXPECT_EQ(extremes_of(yaml, Quantity::vx).greatest.value, 3);
   EXPECT_EQ(extremes_of(yaml, Quantity::vx).greatest.time, 0);
@@ -48,10 +47,10 @@ TEST(PathExtremes, HaveBothSidesOfAnImpact) {
       "scene: 1\nballs: {red: {mass: 2, radius: 0.1, position: [0, 2.1, 0], restitution: 0.5}}\n"
       "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 0.7}",
       Quantity::vy);
-  const double impact = std::sqrt(2 * 2 * g);
+  const double impact = sqrt(2 * 2 * g);
   EXPECT_NEAR(v.least.value, -impact, 4e-15);
   EXPECT_NEAR(v.greatest.value, impact / 2, 4e-15);
-  EXPECT_NEAR(v.greatest.time, std::sqrt(2 * 2 / g), 1e-15);
+  EXPECT_NEAR(v.greatest.time, sqrt(2 * 2 / g), 1e-15);
   EXPECT_EQ(v.least.time, v.greatest.time);
 }
 
@@ -59,16 +58,16 @@ TEST(PathExtremes, UnderLinearDragAreWhereVelocitiesTurn) {
   // v' = -g - c v: the top is at t = log(1 + c v / g) / c.
   const double c = 0.5 / 2;
   const Extremes y = extremes_of(thrown("forces: [{drag: {linear: 0.5}}]\nsimulate: {duration: 1.5}"), Quantity::y);
-  const double top = std::log(1 + c * 5 / g) / c;
+  const double top = log(1 + c * 5 / g) / c;
   EXPECT_NEAR(y.greatest.time, top, 1e-12);
-  EXPECT_NEAR(y.greatest.value, 2 + 5 / c - g / (c * c) * std::log(1 + c * 5 / g), 1e-13);
+  EXPECT_NEAR(y.greatest.value, 2 + 5 / c - g / (c * c) * log(1 + c * 5 / g), 1e-13);
 }
 
 TEST(PathExtremes, OfAnOscillationAreItsAmplitude) {
   const string yaml =
       "scene: 1\ngravity: [0, 0, 0]\nballs: {red: {mass: 1, radius: 0.1, position: [1, 0, 0], velocity: [2, 0, 0]}}\n"
       "forces: [{spring: {anchor: [0, 0, 0], stiffness: 4}}]\nsimulate: {duration: 10}";
-  const double amplitude = std::sqrt(2);
+  const double amplitude = sqrt(2);
   const Extremes x = extremes_of(yaml, Quantity::x);
   EXPECT_NEAR(x.greatest.value, amplitude, 1e-13);
   EXPECT_NEAR(x.greatest.time, std::numbers::pi / 8, 1e-7);
@@ -84,7 +83,7 @@ TEST(PathExtremes, OfAKeplerOrbitAreItsApses) {
       "forces: [{attractor: {center: [0, 0, 0], strength: 1}}]\nsimulate: {duration: 20}";
   const Extremes x = extremes_of(yaml, Quantity::x);
   EXPECT_NEAR(x.least.value, -4, 1e-10);
-  EXPECT_NEAR(x.least.time, std::numbers::pi * std::pow(2.5, 1.5), 1e-5);
+  EXPECT_NEAR(x.least.time, std::numbers::pi * pow(2.5, 1.5), 1e-5);
   EXPECT_NEAR(extremes_of(yaml, Quantity::speed).least.value, 1.2649110640673518 / 4, 1e-11);
   // The semi-minor axis is 2.
   EXPECT_NEAR(extremes_of(yaml, Quantity::y).greatest.value, 2, 1e-11);
@@ -102,7 +101,7 @@ TEST(PathExtremes, OfSlidingAreTakenFromConstrainedMotion) {
   EXPECT_NEAR(x.greatest.value, reach * std::cos(angle), 1e-12);
   const Extremes vx = extremes_of(yaml, Quantity::vx);
   const double c = 2 * std::cos(angle) / 3;
-  EXPECT_NEAR(vx.greatest.value, c * std::sqrt(g * reach * c), 1e-8);
+  EXPECT_NEAR(vx.greatest.value, c * sqrt(g * reach * c), 1e-8);
 }
 
 TEST(PathExtremes, DoNotDependOnTheEngine) {
@@ -152,7 +151,7 @@ TEST(PathExtremes, OfSpringsHaveTheirFirstTimeByEveryMethod) {
 
 // By Verlet's method the speed's amplitude is A w sqrt(1 - (w h)^2 / 4): x_n = A cos(n p), sin(p / 2) = w h / 2. Its
 // accelerations are too great for that by the share (w h)^2 / 12, which a step with its peak in the middle shows.
-const double verlet_speed = 5 * std::sqrt(63.0 / 64);
+const double verlet_speed = 5 * sqrt(63.0 / 64);
 constexpr double within_steps = 5 * 0.25 * 0.25 * 0.25 * 0.25 / 96;  // 2.0e-4, measured: 1.6e-4
 
 TEST(PathExtremes, OfSpeedsAreThoseOfTheSummary) {
@@ -193,7 +192,7 @@ TEST(PathExtremes, OfElasticHopsHaveTheirFirstTime) {
       "balls: {b: {mass: 1, radius: 0.1, position: [0, 1.1, 0], velocity: [0, 1, 0]}}\n"
       "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 200}";
   EXPECT_NEAR(extremes_of(yaml, Quantity::y).greatest.time, 1 / 9.75, 1e-16);
-  const double impact = (1 + std::sqrt(1 + 2 * 9.75)) / 9.75;
+  const double impact = (1 + sqrt(1 + 2 * 9.75)) / 9.75;
   EXPECT_NEAR(extremes_of(yaml, Quantity::speed).greatest.time, impact, 1e-15);
   EXPECT_NEAR(extremes_of(yaml, Quantity::y).least.time, impact, 1e-15);
 }

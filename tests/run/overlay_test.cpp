@@ -1,9 +1,6 @@
 // Whole runs of scenes whose pictures show more than bodies: what is recorded, at which instants, and the same results.
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 
 #include "overlay/history.h"
 #include "overlay/inscription.h"
@@ -51,7 +48,7 @@ double worst_error(const Scene& scene, const History& history, double from, doub
   for (int i = 0; i <= 400; ++i) {
     const double time = from + i * (until - from) / 400;
     while (simulator->time() < time) simulator->advance_to(time);
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = infinity;
     for (const TrackPiece& piece : history.tracks()->of(0))
       if (piece.from <= time && time <= piece.until)
         nearest = std::min(nearest, (piece.position(time) - simulator->state().position[0]).norm());
@@ -165,7 +162,7 @@ TEST(Shutter, BlursAlongTheMotionUntilThePicturesTime) {
   const Image sharp = pictures_of(load_text(across), {0.4}, 0.2).pictures[0];
   const Image blurred = pictures_of(load_text(across + "shutter: 0.5\n"), {0.4}, 0.2).pictures[0];
   const auto ends = [](const Image& image) {
-    std::pair<int, int> found{image.width, -1};
+    pair<int, int> found{image.width, -1};
     for (int x = 0; x < image.width; ++x)
       if (image.row(90)[3 * x] > 8) found = {std::min(found.first, x), std::max(found.second, x)};
     return found;
@@ -186,10 +183,10 @@ TEST(Caption, HasTheExactTimeAndCountOfItsPicture) {
   const Scene scene =
       load_text(bouncing + floor_plane + "caption: \"{time} s, {collisions} in {run}\"\noutput: {frames: true}\n");
   // The ball of 0.8 falls 1 m: impacts at sqrt(2 / g) = 0.4516 s, then after 0.8 x 0.9032 s and 0.64 x 0.9032 s.
-  const std::pair<double, string> expected[] = {{0.45, "0.45 s, 0 in here"},
-                                                {0.46, "0.46 s, 1 in here"},
-                                                {1.1725, "1.17 s, 1 in here"},
-                                                {1.18, "1.18 s, 2 in here"}};
+  const pair<double, string> expected[] = {{0.45, "0.45 s, 0 in here"},
+                                           {0.46, "0.46 s, 1 in here"},
+                                           {1.1725, "1.17 s, 1 in here"},
+                                           {1.18, "1.18 s, 2 in here"}};
   for (const auto& [time, text] : expected) {
     const Image picture = pictures_of(scene, {time}, 0.1).pictures[0];
     Scene plain = load_text(bouncing + floor_plane + "output: {frames: true}\n");

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 
 #include "bench/state_hash.h"
@@ -23,7 +22,7 @@ namespace {
 vector<string> scenes_again() {
   vector<string> names = scene_names();
   names.emplace_back("benchmark/gas_1000");
-  std::ranges::sort(names);
+  ranges::sort(names);
   return names;
 }
 
@@ -80,7 +79,7 @@ void expect_same_states(const World& world, double duration, const Record& run, 
   if (run.tally.end)
     for (double& t : times)
       if (t >= run.tally.end->time) t = duration;
-  std::ranges::sort(times);
+  ranges::sort(times);
   Replay replay(world, from(run.pieces), run.tally);
   for (const double t : times) {
     carry_to(simulator, t);
@@ -158,7 +157,7 @@ TEST_P(RandomSceneAgain, HasTheSimulatorsStateAtAnyInstant) {
       continue;  // a run without end has no record
     }
 
-    SCOPED_TRACE("seed " + std::to_string(scene.seed));
+    SCOPED_TRACE("seed " + to_string(scene.seed));
     expect_same_states(scene.world, scene.options.duration, run, *simulator, 20);
   }
 }

@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
@@ -35,8 +33,8 @@ string bytes_of(const fs::path& path) {
 }
 
 /// All that a run shows of itself, by name: its files, and the manifest without what no two runs have in common.
-std::map<string, string> files_in(const string& folder) {
-  std::map<string, string> files;
+map<string, string> files_in(const string& folder) {
+  map<string, string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder))
     if (entry.is_regular_file()) files[fs::relative(entry.path(), folder)] = bytes_of(entry.path());
   if (!files.contains("manifest.json")) return files;
@@ -86,7 +84,7 @@ class RunByChecks {
     return true;
   }
 
-  std::map<string, string> files() const { return files_in(place_ / "run"); }
+  map<string, string> files() const { return files_in(place_ / "run"); }
   const vector<string>& remarks() const { return remarks_; }
   double begun_at() const { return begun_at_; }
   RunSettings& settings() { return settings_; }
@@ -129,7 +127,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
   RunByChecks plain(undisturbed, scene);
   const int checks = plain.whole();
 
-  const std::map<string, string> right = plain.files();
+  const map<string, string> right = plain.files();
 
   for (const End end : {End::interrupt, End::power_cut}) {
     const RunPlace place;
@@ -146,7 +144,7 @@ void expect_to_go_on(const Scene& scene, std::mt19937_64& random, bool is_kept =
 
     run.settings().checkpoint_s = 60;
     run.whole();
-    const std::map<string, string> files = run.files();
+    const map<string, string> files = run.files();
     for (const auto& [name, bytes] : right)
       EXPECT_TRUE(files.contains(name) && files.at(name) == bytes)
           << name << (end == End::interrupt ? " after an interrupt" : " after a power cut");
@@ -250,9 +248,9 @@ TEST(Resume, DoesNotSettleStepsAgain) {
 }
 
 /// A kept run in `run`, and what it will have in its end.
-std::map<string, string> keep(RunByChecks& run) {
+map<string, string> keep(RunByChecks& run) {
   run.whole();
-  std::map<string, string> right = run.files();
+  map<string, string> right = run.files();
   EXPECT_TRUE(run.stopped(300, 500, End::power_cut));
   run.settings().checkpoint_s = 60;
   return right;

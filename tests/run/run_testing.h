@@ -1,6 +1,5 @@
 #pragma once
 // A folder of its own for each test, and scenes from files.
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +22,7 @@ inline vector<string> scene_names() {
   vector<string> names;
   for (const auto& entry : std::filesystem::directory_iterator(SCENES_DIR))
     if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
-  std::ranges::sort(names);
+  ranges::sort(names);
   return names;
 }
 

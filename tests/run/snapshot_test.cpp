@@ -1,7 +1,6 @@
 // Every scene, and random ones, saved and restored on the way.
 #include "simulate/snapshot.h"
 
-#include <algorithm>
 #include <random>
 
 #include "run/engine.h"
@@ -17,7 +16,7 @@ namespace {
 vector<double> some_times(std::mt19937_64& random, double duration, int count) {
   vector<double> times;
   for (int k = 0; k < count; ++k) times.push_back(duration * static_cast<double>(random() >> 11) * 0x1p-53);
-  std::ranges::sort(times);
+  ranges::sort(times);
   times.push_back(duration);
   return times;
 }
@@ -52,7 +51,7 @@ TEST_P(RandomSceneRestored, GoesOnWithTheSameBits) {
   for (uint64_t k = 0; k < 24; ++k) {
     stress::RandomScene scene = stress::make_scene(GetParam() + families * k);
     if (k % 3 == 2) scene = stress::with_motions(scene);
-    SCOPED_TRACE("seed " + std::to_string(scene.seed));
+    SCOPED_TRACE("seed " + to_string(scene.seed));
 
     std::mt19937_64 random(scene.seed);
     scene.options.record_paths = random() % 2 == 0;

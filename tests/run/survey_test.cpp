@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "export/picture_streams.h"
 #include "physics/world.h"
 #include "render/camera.h"
@@ -29,7 +27,7 @@ double filled(const Scene& scene, const Camera& camera, Size size = {1280, 720})
   const double tan_x = std::tan(view.fov_x * M_PI / 360), tan_y = std::tan(view.fov_y * M_PI / 360);
 
   const auto part = [](double across, double depth, double radius, double tangent) {
-    return std::tan(std::atan2(std::abs(across), depth) + std::asin(radius / std::hypot(across, depth))) / tangent;
+    return std::tan(std::atan2(std::abs(across), depth) + std::asin(radius / hypot(across, depth))) / tangent;
   };
 
   double most = 0;

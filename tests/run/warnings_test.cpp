@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include "run/account.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"

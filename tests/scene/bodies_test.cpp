@@ -1,5 +1,4 @@
 // Bodies and obstacles: volumes, meshes, overlaps at the start.
-#include <cmath>
 #include <numbers>
 
 #include "physics/world.h"
@@ -20,7 +19,7 @@ LoadOptions with_reader(int* reads = nullptr) {
   LoadOptions options;
   options.mesh_points = [reads](const string& path) -> vector<Vec3> {
     if (reads != nullptr) ++*reads;
-    if (path.ends_with("torn.stl")) throw std::runtime_error("it ends within a triangle");
+    if (path.ends_with("torn.stl")) throw runtime_error("it ends within a triangle");
     if (path.ends_with("flat.stl")) return {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
     return pin;
   };

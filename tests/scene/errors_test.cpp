@@ -199,7 +199,7 @@ TEST(SceneErrors, AllErrorsOfAFileComeInItsOrder) {
 
 TEST(SceneErrors, AtMostFiftyAreShown) {
   string text = start;
-  for (int i = 0; i < 80; ++i) text += "unknown" + std::to_string(i) + "_key: 1\n";
+  for (int i = 0; i < 80; ++i) text += "unknown" + to_string(i) + "_key: 1\n";
   const string all = errors_of(text);
   EXPECT_TRUE(all.ends_with("and 30 more errors\n")) << all.substr(all.size() - 100);
 }

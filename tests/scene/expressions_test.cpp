@@ -82,7 +82,7 @@ string fault_of(const string& text) {
 }
 
 /// Texts, each with the part that its error points at, and what that says.
-const std::pair<const char*, const char*> faults[] = {
+const pair<const char*, const char*> faults[] = {
     {"", ": an empty expression"},
     {"  ", " : an empty expression"},
     {"1 +", "+: the expression ends too early"},

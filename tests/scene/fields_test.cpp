@@ -2,9 +2,6 @@
 #include "scene/fields.h"
 #include "scene/path_field.h"
 
-#include <algorithm>
-#include <set>
-
 #include "scene/scenes_in_text.h"
 #include "scene/view.h"
 #include "std.h"
@@ -14,12 +11,12 @@ namespace carom {
 namespace {
 
 TEST(Fields, EveryRowIsComplete) {
-  std::set<string_view> names;
+  set<string_view> names;
   for (const Kind& kind : kinds()) {
     EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
     EXPECT_FALSE(kind.doc.empty()) << kind.name;
 
-    std::set<string_view> keys;
+    set<string_view> keys;
     for (const Field& field : kind.fields) {
       EXPECT_TRUE(keys.insert(field.key).second) << kind.name << "." << field.key;
       EXPECT_TRUE(field.doc.ends_with('.')) << kind.name << "." << field.key;
@@ -29,7 +26,7 @@ TEST(Fields, EveryRowIsComplete) {
         const Field* other = find_field(kind, rival);
         ASSERT_NE(other, nullptr) << kind.name << "." << field.key;
         const vector<string_view> its = rivals(*other);
-        EXPECT_NE(std::ranges::find(its, field.key), its.end())
+        EXPECT_NE(ranges::find(its, field.key), its.end())
             << kind.name << ": " << rival << " does not exclude " << field.key;
       }
 

@@ -26,7 +26,7 @@ TEST(Forces, ActOnAllOrOnThoseNamedFromTimeToTime) {
   const Force &all = scene.world.forces[0], &gust = scene.world.forces[1];
   EXPECT_TRUE(all.law == ForceLaw(UniformForce{Vec3(1, 0, 0)}));
   EXPECT_EQ(all.from, 0);
-  EXPECT_EQ(all.until, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(all.until, infinity);
   EXPECT_TRUE(all.on.empty());
   EXPECT_TRUE(gust.law == ForceLaw(UniformAcceleration{Vec3(0, 0, 2)}));
   EXPECT_EQ(gust.from, 0.5);

@@ -1,8 +1,6 @@
 // Balls made by rule, and the random numbers they are made with.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "scene/marked_errors.h"
 #include "scene/random.h"
@@ -70,8 +68,8 @@ TEST(Groups, ErrorsHaveTheNumberThatWouldFit) {
     const size_t at = error.find("     = ") + 7;
     const int fit = std::stoi(error.substr(at));
     EXPECT_EQ(fit, 1254) << error;
-    EXPECT_EQ(load_text(group(arrange, std::to_string(fit), 0.05, 1)).world.body_count(), 1254u);
-    EXPECT_NE(errors_of(group(arrange, std::to_string(fit + 1), 0.05, 1)), "");
+    EXPECT_EQ(load_text(group(arrange, to_string(fit), 0.05, 1)).world.body_count(), 1254u);
+    EXPECT_NE(errors_of(group(arrange, to_string(fit + 1), 0.05, 1)), "");
   }
 
   const string error = errors_of(group("random", "1", 0.6, 1));
@@ -166,7 +164,7 @@ TEST(Random, LogarithmIsRightToTwoAndAHalfUnits) {
   double worst = 0;
   for (int i = 0; i < 100'000; ++i) {
     const double x = std::ldexp(1 - random.uniform(), -static_cast<int>(random.below(60)));
-    const double exact = static_cast<double>(std::log(static_cast<long double>(x)));
+    const double exact = static_cast<double>(log(static_cast<long double>(x)));
     if (exact != 0) worst = std::max(worst, std::fabs(reproducible_log(x) / exact - 1) / 0x1p-52);
   }
   EXPECT_LT(worst, 2.5);
@@ -232,7 +230,7 @@ TEST(Groups, AMassThatTheDefaultsCancelIsMissingWhereverTheyStand) {
   for (const string& text : {start + defaults + balls, start + balls + defaults}) {
     const Marked errors = marked_errors(text);
     ASSERT_EQ(errors.size(), 1u) << text;
-    EXPECT_EQ(errors[0], std::pair(string("a"), message));
+    EXPECT_EQ(errors[0], pair(string("a"), message));
   }
 }
 

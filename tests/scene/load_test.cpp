@@ -1,5 +1,4 @@
 // The meaning of scene files.
-#include <cmath>
 
 #include "physics/world.h"
 #include "scene/marked_errors.h"
@@ -87,11 +86,11 @@ TEST(LoadScene, VideoTakesRateSizeAndSamplesFromFramesAndNoWindow) {
 }
 
 TEST(LoadScene, SizesHaveNames) {
-  for (const auto& [name, size] : vector<std::pair<string, Size>>{{"720p", {1280, 720}},
-                                                                  {"1080p", {1920, 1080}},
-                                                                  {"4k", {3840, 2160}},
-                                                                  {"square", {1080, 1080}},
-                                                                  {"\"4k\"", {3840, 2160}}}) {
+  for (const auto& [name, size] : vector<pair<string, Size>>{{"720p", {1280, 720}},
+                                                             {"1080p", {1920, 1080}},
+                                                             {"4k", {3840, 2160}},
+                                                             {"square", {1080, 1080}},
+                                                             {"\"4k\"", {3840, 2160}}}) {
     const Scene scene =
         load_text(start + "output: {frames: {size: " + name + "}, video: true, sheet: {size: " + name + "}}\n");
     EXPECT_EQ(scene.output.frames->size, size) << name;
@@ -156,10 +155,8 @@ TEST(LoadScene, AGifHasARateThatItCanKeep) {
 }
 
 TEST(LoadScene, AGifWithoutARateOfItsOwnHasTheHighestUpToThatOfFrames) {
-  for (const auto& [frames, film] :
-       {std::pair{30, 25.}, {60, 50.}, {25, 25.}, {24, 20.}, {1000, 50.}, {12, 100. / 9}}) {
-    const Scene scene =
-        load_text(start + "output: {frames: {fps: " + std::to_string(frames) + "}, video: {file: x.gif}}\n");
+  for (const auto& [frames, film] : {pair{30, 25.}, {60, 50.}, {25, 25.}, {24, 20.}, {1000, 50.}, {12, 100. / 9}}) {
+    const Scene scene = load_text(start + "output: {frames: {fps: " + to_string(frames) + "}, video: {file: x.gif}}\n");
     EXPECT_EQ(scene.output.video->fps, film);
     EXPECT_EQ(scene.output.frames->fps, frames);
     EXPECT_EQ(load_text(scene.resolved).output.video->fps, film);
@@ -386,8 +383,8 @@ TEST(LoadScene, TouchingByRoundingIsNoOverlap) {
   // 0.1 + 0.2 > 0.3 in doubles; a cradle's balls at multiples of 0.2 m with radius 0.1.
   string text = start + "defaults: {ball: {mass: 1, radius: 0.1}}\nballs:\n";
   for (int i = 0; i < 9; ++i)
-    text += "  b" + std::to_string(i) + ": {position: [" + std::to_string(i * 2 / 10) + "." +
-            std::to_string(i * 2 % 10) + ", 0.1, 1000.3]}\n";
+    text += "  b" + to_string(i) + ": {position: [" + to_string(i * 2 / 10) + "." + to_string(i * 2 % 10) +
+            ", 0.1, 1000.3]}\n";
   EXPECT_EQ(errors_of(text + "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n"), "");
   EXPECT_NE(errors_of(start + "balls: {a: {mass: 1, radius: 0.1, position: [0, 0, 0]}, b: {mass: 1, radius: 0.1, "
                               "position: [0.199999999, 0, 0]}}\n")

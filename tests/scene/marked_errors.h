@@ -1,14 +1,13 @@
 #pragma once
 // The errors of a scene in parts, without the layout of their text.
 #include <sstream>
-#include <utility>
 
 #include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
 
-using Marked = vector<std::pair<string, string>>;
+using Marked = vector<pair<string, string>>;
 using Parts = vector<std::tuple<string, string, string>>;
 
 /// For each error in the text of errors_of(): "LINE:COLUMN MARKED", the message, and the remedies, one a line.
@@ -31,7 +30,7 @@ inline Parts in_parts(const string& errors) {
       remedies += (remedies.empty() ? "" : "\n") + line.substr(7);
     } else if (const size_t mark = line.find('^');
                mark != string::npos && line.find_first_not_of(" |^~") == string::npos) {
-      if (marked.ends_with(':')) marked += std::to_string(mark - 6);
+      if (marked.ends_with(':')) marked += to_string(mark - 6);
       marked += " " + before.substr(std::min(mark, before.size()), line.size() - mark);
     }
   }

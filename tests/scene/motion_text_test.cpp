@@ -77,8 +77,8 @@ TEST(MotionText, ChangesWithWhateverChangesTheMotion) {
   vector<string> texts = {text_with("")};
   for (const char* set : of_the_motion) texts.push_back(text_with(set));
 
-  for (const auto& [from, to] : {std::pair("until: 1", "until: 1.5"), std::pair("[0, 0, 1]", "[0, 0, 2]"),
-                                 std::pair("on: [red]", "on: [crate]"), std::pair("stiffness: 3", "stiffness: 4")}) {
+  for (const auto& [from, to] : {pair("until: 1", "until: 1.5"), pair("[0, 0, 1]", "[0, 0, 2]"),
+                                 pair("on: [red]", "on: [crate]"), pair("stiffness: 3", "stiffness: 4")}) {
     string other = both;
     other.replace(other.find(from), string_view(from).size(), to);
     texts.push_back(motion_text(load_text(other)));

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "scene/fields.h"
@@ -67,7 +66,7 @@ TEST(Outputs, NoTwoHaveAFileOfTheSameName) {
   vector<string> names = output_files(with_all({}));
   for (const OutputKind& kind : output_kinds())
     if (!kind.series.folder.empty()) names.emplace_back(kind.series.folder);
-  std::ranges::sort(names);
+  ranges::sort(names);
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
   for (const string& name : names) EXPECT_EQ(is_reserved(name), name != VideoOutput{}.file) << name;
 }

@@ -1,5 +1,4 @@
 // What pictures show besides bodies: the keys, and the errors at their place.
-#include <cmath>
 
 #include "scene/caption.h"
 #include "scene/color_scale.h"

@@ -3,10 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "std.h"
 #include "yaml/values.h"
 
@@ -33,14 +29,14 @@ Numbers numbers(const SampledRange& range, Sampling sampling, uint64_t count) {
 /// The greatest distance between the distribution of numbers in (0, 1) and the uniform one, times sqrt(n)
 /// (Kolmogorov & Smirnov). It exceeds 1.63 in one of a hundred cases.
 double unevenness(Numbers shares) {
-  std::ranges::sort(shares);
+  ranges::sort(shares);
   const auto n = static_cast<double>(shares.size());
   double most = 0;
   for (size_t i = 0; i < shares.size(); ++i) {
     const auto below = static_cast<double>(i);
     most = std::max({most, shares[i] - below / n, (below + 1) / n - shares[i]});
   }
-  return most * std::sqrt(n);
+  return most * sqrt(n);
 }
 
 // The numbers are those of the same formulas in Python, with fractions and the library's power.
@@ -60,7 +56,7 @@ TEST(Samples, LieBetweenTheEndsWithSixOrSevenDigits) {
       const double value = parse_number(text).value();
       EXPECT_TRUE(from < value && value < to) << text;
       // Places below the range's first digit: 10^5 to 10^6 numbers.
-      const double width = to - from, unit = std::pow(10, std::floor(std::log10(width / 1e5 * (1 + 1e-9))));
+      const double width = to - from, unit = pow(10, floor(std::log10(width / 1e5 * (1 + 1e-9))));
       EXPECT_NEAR(value / unit, std::round(value / unit), 1e-3) << text;
     }
   }
@@ -97,10 +93,10 @@ TEST(LatinHypercube, HasOneNumberInEachPartOfTheRange) {
                                         {"1", "1.5", true},
                                         {"-3", "-1", false}}) {
       const double low = parse_number(from).value(), high = parse_number(to).value();
-      std::set<int> parts;
+      set<int> parts;
       for (const double value : numbers(range(from, to, log), Sampling::latin, static_cast<uint64_t>(count))) {
         const double share = log ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
-        parts.insert(static_cast<int>(std::floor(share * count + 1e-9)));
+        parts.insert(static_cast<int>(floor(share * count + 1e-9)));
       }
 
       EXPECT_EQ(parts.size(), static_cast<size_t>(count)) << from;
@@ -111,9 +107,9 @@ TEST(LatinHypercube, HasOneNumberInEachPartOfTheRange) {
 }
 
 TEST(LatinHypercube, OfWholeNumbersHasEachEquallyOften) {
-  for (const auto& [count, each] : {std::pair(100, 10), {10, 1}, {1000, 100}}) {
+  for (const auto& [count, each] : {pair(100, 10), {10, 1}, {1000, 100}}) {
     const Numbers drawn = numbers(range("0", "9", false, true), Sampling::latin, static_cast<uint64_t>(count));
-    for (int k = 0; k < 10; ++k) EXPECT_EQ(std::ranges::count(drawn, k), each) << k;
+    for (int k = 0; k < 10; ++k) EXPECT_EQ(ranges::count(drawn, k), each) << k;
   }
 }
 
@@ -130,11 +126,11 @@ TEST(LatinHypercube, PairsThePartsOfSeveralRangesAtRandom) {
 
 TEST(Samples, OfWholeNumbersCanBeUniformInTheLogarithm) {
   const Numbers drawn = numbers(range("1", "1000", true, true), Sampling::random, 10'000);
-  EXPECT_EQ(*std::ranges::min_element(drawn), 1);
-  EXPECT_LE(*std::ranges::max_element(drawn), 1000);
-  const auto ones = static_cast<double>(std::ranges::count(drawn, 1));
+  EXPECT_EQ(*ranges::min_element(drawn), 1);
+  EXPECT_LE(*ranges::max_element(drawn), 1000);
+  const auto ones = static_cast<double>(ranges::count(drawn, 1));
   // log(2)/log(1001) = 0.1003, with a standard error of 0.003.
-  EXPECT_NEAR(ones / 10'000, std::log(2) / std::log(1001), 0.01);
+  EXPECT_NEAR(ones / 10'000, log(2) / log(1001), 0.01);
 }
 
 TEST(Samples, ThatNeedMoreThanFifteenDigitsAreNone) {

@@ -13,8 +13,8 @@ namespace carom {
 
 inline string test_folder() {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-  const string folder = testing::TempDir() + "carom_scene_" + std::to_string(getpid()) + "_" + info->test_suite_name() +
-                        "." + info->name();
+  const string folder =
+      testing::TempDir() + "carom_scene_" + to_string(getpid()) + "_" + info->test_suite_name() + "." + info->name();
   std::filesystem::create_directories(folder);
   return folder;
 }

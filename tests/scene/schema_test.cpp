@@ -133,8 +133,8 @@ const vector<Beyond> beyond_schemas = {
 };
 
 /// The one of beyond_schemas that explains each error; empty: another error is among them.
-std::set<size_t> explained(const string& errors) {
-  std::set<size_t> found;
+set<size_t> explained(const string& errors) {
+  set<size_t> found;
   std::istringstream in(errors);
   for (string line; std::getline(in, line);) {
     if (line.find(": error: ") == string::npos) continue;
@@ -151,7 +151,7 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   Validator validator("scene");
   const string file = validator.folder() + "/scene.yaml";
   std::ofstream(validator.folder() + "/box.stl") << "a mesh";
-  std::set<string> visited, all;
+  set<string> visited, all;
   vector<Variation> variations;
   for (const string& scene : right_scenes()) {
     EXPECT_EQ(loaded(file, scene), "");
@@ -170,14 +170,14 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
 
   const vector<string> verdicts = validating.get();
   ASSERT_EQ(verdicts.size(), variations.size());
-  std::set<size_t> used;
+  set<size_t> used;
   size_t right = 0, differing = 0;
 
   for (size_t i = 0; i < variations.size(); ++i) {
     const string& errors = all_errors[i];
     right += errors.empty();
     if (errors.empty() == (verdicts[i] == "right")) continue;
-    const std::set<size_t> why = explained(errors);
+    const set<size_t> why = explained(errors);
     used.insert(why.begin(), why.end());
     if (!why.empty() && verdicts[i] == "right") continue;
     if (++differing <= 40) ADD_FAILURE() << variations[i].what << "\nschema: " << verdicts[i] << "\nloader: " << errors;
@@ -240,7 +240,7 @@ const vector<Written> written_flags = {
 
 TEST(Schema, AgreesWithTheLoaderOnHowNumbersAndFlagsAreWritten) {
   Validator validator("scene");
-  vector<std::pair<string, Written>> all;
+  vector<pair<string, Written>> all;
   for (const Written& number : written_numbers)
     all.emplace_back("scene: 1\nsimulate: {duration: 1, rest_speed: " + number.text + "}\n", number);
   for (const Written& flag : written_flags)
@@ -296,7 +296,7 @@ TEST(Schema, HasEverySceneRightByReadersOfYaml12And11) {
   }
 
   ASSERT_GT(of_scenes.size(), 20u);
-  for (const auto& [files, verdicts] : {std::pair(of_scenes, validator.run()), std::pair(of_sweeps, sweeps.run())}) {
+  for (const auto& [files, verdicts] : {pair(of_scenes, validator.run()), pair(of_sweeps, sweeps.run())}) {
     ASSERT_EQ(verdicts.size(), 2 * files.size());
     for (size_t i = 0; i < verdicts.size(); ++i) EXPECT_EQ(verdicts[i], "right") << files[i / 2];
   }

@@ -181,12 +181,12 @@ TEST(StartErrors, OfTheReaderStandAtTheRunOrTheTime) {
 
 TEST(StartErrors, OfKeys) {
   for (const auto& [part, error] :
-       vector<std::pair<string, string>>{{"{at: 1}", "`start` has no `run`"},
-                                         {"{run: first, at: -1}", "`at` is -1"},
-                                         {"{run: first, at: 1 s}", "1 s"},
-                                         {"{run: [first]}", "`run` is a list"},
-                                         {"first", "`start` is `first`"},
-                                         {"{run: first, time: 1}", "unknown key `time` in `start`"}})
+       vector<pair<string, string>>{{"{at: 1}", "`start` has no `run`"},
+                                    {"{run: first, at: -1}", "`at` is -1"},
+                                    {"{run: first, at: 1 s}", "1 s"},
+                                    {"{run: [first]}", "`run` is a list"},
+                                    {"first", "`start` is `first`"},
+                                    {"{run: first, time: 1}", "unknown key `time` in `start`"}})
     EXPECT_NE(errors_of(start + "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}}\nstart: " + part + "\n",
                         with_run({"red"}))
                   .find(error),
@@ -219,7 +219,7 @@ TEST(ListedBalls, ReplaceTheRulesOfDefaults) {
 const string two_members = "members: [{position: [0, 0, 0]}, {position: [0, 0.15, 0]}]";
 
 /// Keys of a group of two balls, and a part of their error.
-const vector<std::pair<string, string>> wrong_members = {
+const vector<pair<string, string>> wrong_members = {
     {two_members, "`gas.1` overlaps `gas.0` by 0.05 m at the start"},
     {two_members + ", in: {min: [0, 0, 0], max: [1, 1, 1]}", "has both `members` and `in`"},
     {"arrange: lattice, " + two_members, "has both `arrange` and `members`"},

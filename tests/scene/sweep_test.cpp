@@ -151,7 +151,7 @@ TEST(SweepErrors, OfSamplesHavePlaceAndRemedy) {
 
   // A million values of eleven paths.
   string ranges;
-  for (int k = 0; k < 11; ++k) ranges += (k > 0 ? ", a" : "a") + std::to_string(k) + ": {from: 1, to: 2}";
+  for (int k = 0; k < 11; ++k) ranges += (k > 0 ? ", a" : "a") + to_string(k) + ": {from: 1, to: 2}";
   has("random: 1000000\nover: {" + ranges + "}\n", "expected at most 10000000 values in all");
 
   has("random: 5\ngrid: {a: [1]}\nover: {a: {from: 1, to: 2}}\n", "`a` is varied twice");
@@ -240,7 +240,7 @@ TEST(SweepErrors, NameWhatNoSweepCanBe) {
 
   // More runs than 64 bits count.
   string many;
-  for (int k = 0; k < 40; ++k) many += "  a" + std::to_string(k) + ": {from: 1, to: 1000000, count: 1000000}\n";
+  for (int k = 0; k < 40; ++k) many += "  a" + to_string(k) + ": {from: 1, to: 1000000, count: 1000000}\n";
   has(head + "grid:\n" + many, "more than 1000000 runs");
   has(head + "zip:\n" + many, "1000000 values of 40 paths");
 

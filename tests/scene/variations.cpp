@@ -27,7 +27,7 @@ vector<Json> values_for(const Field& field, bool few) {
   if (!field.initial.empty()) values.push_back(json_of_yaml(field.initial));
 
   for (const double edge : {field.range.min, field.range.max}) {
-    if (!std::isfinite(edge)) continue;
+    if (!isfinite(edge)) continue;
     for (const double value : {edge, std::nextafter(edge, -1e9), edge + 1}) values.push_back(number_json(value));
   }
   return values;
@@ -35,7 +35,7 @@ vector<Json> values_for(const Field& field, bool few) {
 
 class Varying {
  public:
-  Varying(const string& scene, std::set<string>& visited) : root_(json_of_yaml(scene)), visited_(visited) {}
+  Varying(const string& scene, set<string>& visited) : root_(json_of_yaml(scene)), visited_(visited) {}
 
   vector<Variation> run() {
     map(root_, kind_named("scene"), "");
@@ -116,7 +116,7 @@ class Varying {
   }
 
   Json root_;
-  std::set<string>& visited_;
+  set<string>& visited_;
   vector<Variation> found_;
 };
 
@@ -283,7 +283,7 @@ vector<string> right_scenes() {
   return all_right;
 }
 
-vector<Variation> vary(const string& scene, std::set<string>& visited) {
+vector<Variation> vary(const string& scene, set<string>& visited) {
   return Varying(scene, visited).run();
 }
 

@@ -2,7 +2,6 @@
 // Valid scenes, and ways to make them wrong: every key of the table of fields taken away, added, and given
 // every kind of value.
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "std.h"
 
@@ -19,6 +18,6 @@ vector<string> right_scenes();
 
 /// Every scene that is one change away: every key that it has or could have, by every change. `visited` gets
 /// "kind.key" of those that it has.
-vector<Variation> vary(const string& scene, std::set<string>& visited);
+vector<Variation> vary(const string& scene, set<string>& visited);
 
 }  // namespace carom

@@ -1,9 +1,6 @@
 // Flights in closed form and in steps on the scenes of scenes/.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <set>
-
 #include "physics/force.h"
 #include "run/engine.h"
 #include "scene/scene.h"
@@ -50,8 +47,8 @@ Far far(const State& a, const State& b) {
 
 /// All scenes but those whose outcome depends on the last bit, as that of many balls that keep colliding does.
 vector<string> calm_scenes() {
-  const std::set<string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
-                                    "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
+  const set<string> chaotic = {"balls_in_a_box",     "gas_in_a_room",       "pile_at_rest", "piston",
+                               "benchmark/gas_1000", "benchmark/frame_100", "funnel"};
   vector<string> names = scene_names();
   std::erase_if(names, [&](const string& name) { return chaotic.count(name) != 0; });
   return names;
@@ -74,17 +71,17 @@ TEST_P(Agreement, OfExactAndSteppedWithinRoundingOrAtTheOrderOfTheMethod) {
   const Scene scene = load(GetParam());
   const State exact = exact_end(scene);
   const bool curved = varying_force(scene.world) != nullptr;
-  for (const auto& [integrator, order] : {std::pair(Integrator::verlet, 2), std::pair(Integrator::rk4, 4)}) {
+  for (const auto& [integrator, order] : {pair(Integrator::verlet, 2), pair(Integrator::rk4, 4)}) {
     const Far coarse = far(stepped_end(scene, integrator, 0.01), exact);
     const Far fine = far(stepped_end(scene, integrator, 0.0025), exact);
     if (!curved) {
       EXPECT_LT(std::max(coarse.x, coarse.v), 1e-9);  // measured: 4e-11 (billiard_break)
       EXPECT_LT(std::max(fine.x, fine.v), 1e-9);
     } else {
-      const double falls = std::pow(4, order);
+      const double falls = pow(4, order);
       EXPECT_LT(fine.x, 1.5 * coarse.x / falls + 2e-9) << order;
       // Bodies that slide on a flat surface have closed forms in both.
-      if (const std::set<string> slide = {"cars", "pool"}; slide.count(GetParam()) != 0) {
+      if (const set<string> slide = {"cars", "pool"}; slide.count(GetParam()) != 0) {
         EXPECT_EQ(coarse.x, 0);
       } else {
         EXPECT_GT(coarse.x, 2e-9);

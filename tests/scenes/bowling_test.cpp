@@ -1,7 +1,6 @@
 // The source chapter's two bowling balls, in seven files, against their comments and the closed form.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +15,7 @@ namespace carom::testing {
 namespace {
 
 constexpr double s = 3, v = 2, r = 0.11, m = 10;
-const double meeting = (s - r * std::sqrt(2)) / v;
+const double meeting = (s - r * sqrt(2)) / v;
 
 struct Variant {
   const char* file;
@@ -30,7 +29,7 @@ TEST_P(BowlingBalls, MeetAndPartByTheClosedForm) {
   const Played run = play(file);
   ASSERT_EQ(run.collisions.size(), 1u);
   EXPECT_NEAR(run.collisions[0].time, meeting, 4e-16);  // measured: 0
-  EXPECT_NEAR(run.collisions[0].approach_speed, v * std::sqrt(2), 1e-15);
+  EXPECT_NEAR(run.collisions[0].approach_speed, v * sqrt(2), 1e-15);
   const Vec3 red(-v * (1 - e) / 2, 0, v * (1 + e) / 2), blue(-v * (1 + e) / 2, 0, v * (1 - e) / 2);
   EXPECT_LT((run.velocity("red") - red).norm(), 2e-15);  // measured: 4e-16
   EXPECT_LT((run.velocity("blue") - blue).norm(), 2e-15);
@@ -68,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(ByRestitution, BowlingBalls,
                          [](const auto& parameter) { return string(parameter.param.file); });
 
 TEST(TwoBowlingBalls, CommentHasTheApproachSpeedToTwelveDigits) {
-  EXPECT_NEAR(stated("two_bowling_balls", "they approach at v sqrt(2) = "), v * std::sqrt(2), 1e-15);
+  EXPECT_NEAR(stated("two_bowling_balls", "they approach at v sqrt(2) = "), v * sqrt(2), 1e-15);
 }
 
 TEST(TwoBowlingBalls, ComeFromBeyondTheLeftEdgeAndFromBelowThePicture) {

@@ -1,8 +1,6 @@
 // Scenes of many collisions and of walls, against their comments and the closed forms.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "scene/scene.h"
@@ -18,8 +16,8 @@ size_t among_balls(const Played& run) {
 
 TEST(BilliardBreak, TheFirstCollisionIsTheClosedForm) {
   const string file = "billiard_break";
-  const double b = 0.004, d = 0.05715, v = 7, share = std::sqrt(1 - b * b / (d * d));
-  const double time = (1.27 - std::sqrt(d * d - b * b)) / v;
+  const double b = 0.004, d = 0.05715, v = 7, share = sqrt(1 - b * b / (d * d));
+  const double time = (1.27 - sqrt(d * d - b * b)) / v;
 
   const Played run = play(file, {0.1733});
   const Collision& first = run.collisions[0];
@@ -86,7 +84,7 @@ TEST(NewtonsCradleTouching, TwoInTwoOutToTheLastBit) {
   const Played run = play(file, {0.8, 2.2});
 
   const auto at = [&](double time) {
-    return std::ranges::count_if(run.collisions, [&](const Collision& c) { return c.time == time; });
+    return ranges::count_if(run.collisions, [&](const Collision& c) { return c.time == time; });
   };
 
   EXPECT_EQ(run.states[0].velocity, (vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 0, 0}}));
@@ -106,8 +104,8 @@ TEST(NewtonsCradleTouching, TwoInTwoOutToTheLastBit) {
 TEST(PiByCollisions, CountsThreeHundredAndFourteen) {
   const string file = "pi_by_collisions";
   const Played run = play(file);
-  const double quotient = M_PI / std::atan(std::sqrt(1 / 10000.0));
-  EXPECT_EQ(run.collisions.size(), std::floor(quotient));
+  const double quotient = M_PI / std::atan(sqrt(1 / 10000.0));
+  EXPECT_EQ(run.collisions.size(), floor(quotient));
   EXPECT_NEAR(stated(file, "= floor("), quotient, 5e-5);
   EXPECT_EQ(run.collisions.size(), stated(file, "floor(314.1697) = "));
   EXPECT_EQ(among_balls(run), stated(file, "314 collisions, "));
@@ -120,8 +118,8 @@ TEST(PiByCollisions, CountsThreeHundredAndFourteen) {
 TEST(PiToSixDigits, Counts314159) {
   const string file = "pi_to_six_digits";
   const Played run = play(file);
-  const double quotient = M_PI / std::atan(std::sqrt(1e-10));
-  EXPECT_EQ(run.collisions.size(), std::floor(quotient));
+  const double quotient = M_PI / std::atan(sqrt(1e-10));
+  EXPECT_EQ(run.collisions.size(), floor(quotient));
   EXPECT_NEAR(stated(file, "= floor("), quotient, 5e-3);
   EXPECT_EQ(run.collisions.size(), stated(file, "floor(314159.27) = "));
   EXPECT_EQ(among_balls(run), stated(file, "314159 collisions, "));
@@ -153,10 +151,10 @@ TEST(GasInARoom, KeepsItsEnergyAndPushesTheWalls) {
   EXPECT_NEAR(stated(file, "over the six walls and 6 s: "), force, 0.05);
   EXPECT_NEAR(stated(file, "N, a factor of "), force / ideal, 0.0005);
 
-  const double filling = 200 * 4 / 3.0 * M_PI * std::pow(0.05, 3) / 8;
+  const double filling = 200 * 4 / 3.0 * M_PI * pow(0.05, 3) / 8;
   EXPECT_NEAR(stated(file, "pi r^3 / 8 m^3 = "), filling, 5e-5);
   EXPECT_NEAR(stated(file, "gives a factor of "),
-              (1 + filling + filling * filling - std::pow(filling, 3)) / std::pow(1 - filling, 3), 0.0005);
+              (1 + filling + filling * filling - pow(filling, 3)) / pow(1 - filling, 3), 0.0005);
   EXPECT_EQ(stated(file, "gives a factor of 1.054; "), run.tally.body_fixed);
 }
 

@@ -1,10 +1,6 @@
 // Invariants of every file in scenes/.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "render/renderer.h"
@@ -48,7 +44,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   const double least = crowds ? 1e-4 : 1e-9;  // measured: 8e-6 (pile_at_rest)
   EXPECT_LT(std::abs(run.tally.method_error), least * passed);
   if (run.scene.simulate.engine != Engine::book) {
-    const double smallest = *std::ranges::min_element(world.radius);
+    const double smallest = *ranges::min_element(world.radius);
     EXPECT_LE(run.tally.max_overlap, (crowds ? 1e-10 : 2e-11) * smallest);  // measured: 8e-11 (balls_in_a_box)
   }
 }

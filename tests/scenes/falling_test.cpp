@@ -1,7 +1,6 @@
 // Scenes in which balls fall, bounce, slide and rest, against their comments and the closed forms.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "physics/energy.h"
@@ -15,10 +14,10 @@ namespace {
 
 TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
   const string file = "bouncing_ball";
-  const double t1 = std::sqrt(2 / g_n), e = 0.8, rest = t1 * (1 + e) / (1 - e);
+  const double t1 = sqrt(2 / g_n), e = 0.8, rest = t1 * (1 + e) / (1 - e);
   const Played run = play(file, {rest + 1e-9, 4.5});
   EXPECT_NEAR(run.collisions[0].time, t1, 1e-15);
-  EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g_n), 2e-15);
+  EXPECT_NEAR(run.collisions[0].approach_speed, sqrt(2 * g_n), 2e-15);
   ASSERT_EQ(run.rests.size(), 1u);
   EXPECT_NEAR(run.rests[0].time, rest, 4e-13);  // 1e-13 relative
   for (const State& state : run.states) {
@@ -31,21 +30,21 @@ TEST(BouncingBall, RestsWhenTheSumOfItsFlightsEnds) {
   for (int n = 0; n < 3; ++n) tops.push_back((run.collisions[n].time + run.collisions[n + 1].time) / 2);
   const Played at_tops = play(file, tops);
   for (int n = 0; n < 3; ++n) {
-    EXPECT_NEAR(at_tops.states[n].position[0].y() - 0.12, std::pow(e, 2 * n + 2), 1e-15);
+    EXPECT_NEAR(at_tops.states[n].position[0].y() - 0.12, pow(e, 2 * n + 2), 1e-15);
   }
 
   EXPECT_NEAR(stated(file, "t1 = sqrt(2 h / g) = "), t1, 5e-16);
-  EXPECT_NEAR(stated(file, "at sqrt(2 g h) = "), std::sqrt(2 * g_n), 1e-15);
+  EXPECT_NEAR(stated(file, "at sqrt(2 g h) = "), sqrt(2 * g_n), 1e-15);
   EXPECT_NEAR(stated(file, "from t1 (1+e)/(1-e) = "), rest, 1e-15);
   EXPECT_NEAR(stated(file, "h e^(2 n): "), e * e, 1e-15);
-  EXPECT_NEAR(stated(file, "0.64 m, "), std::pow(e, 4), 1e-15);
-  EXPECT_NEAR(stated(file, "0.4096 m, "), std::pow(e, 6), 1e-15);
+  EXPECT_NEAR(stated(file, "0.64 m, "), pow(e, 4), 1e-15);
+  EXPECT_NEAR(stated(file, "0.4096 m, "), pow(e, 6), 1e-15);
   EXPECT_NEAR(stated(file, "-1.5 + 0.6 * 5 = "), 1.5, 1e-15);
 }
 
 TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
   const string file = "restitution_row";
-  const double t1 = std::sqrt(2 / g_n);
+  const double t1 = sqrt(2 / g_n);
   const double es[] = {1, 0.95, 0.9, 0.8, 0.65, 0.5, 0.2};
   const double heights[] = {1, 0.9025, 0.81, 0.64, 0.4225, 0.25, 0.04};
 
@@ -79,7 +78,7 @@ TEST(RestitutionRow, EveryBallRisesToESquaredOfTheHeight) {
 
 TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
   const string file = "basketball_and_tennis_ball";
-  const double big = 0.62, m = 0.058, h = 0.4, t = std::sqrt(2 * h / g_n), v = std::sqrt(2 * g_n * h);
+  const double big = 0.62, m = 0.058, h = 0.4, t = sqrt(2 * h / g_n), v = sqrt(2 * g_n * h);
   const double up = v * (3 * big - m) / (big + m);
 
   const Played run = play(file, {0.5, t + up / g_n});
@@ -92,13 +91,13 @@ TEST(BasketballAndTennisBall, TheTennisBallIsShotUp) {
 
   EXPECT_NEAR(run.states[0].velocity[1].y() + g_n * (0.5 - t), up, 1e-14);
   EXPECT_NEAR(run.states[0].velocity[0].y() + g_n * (0.5 - t), v * (big - 3 * m) / (big + m), 1e-14);
-  EXPECT_NEAR(run.states[1].position[1].y() - 0.273, h * std::pow((3 * big - m) / (big + m), 2), 1e-14);
+  EXPECT_NEAR(run.states[1].position[1].y() - 0.273, h * pow((3 * big - m) / (big + m), 2), 1e-14);
 
   EXPECT_NEAR(stated(file, "sqrt(2 h / g) = "), t, 5e-16);
   EXPECT_NEAR(stated(file, "sqrt(2 g h) = "), v, 5e-15);
   EXPECT_NEAR(stated(file, "v (3 M - m)/(M + m) = "), up, 5e-14);
   EXPECT_NEAR(stated(file, "v (M - 3 m)/(M + m) = "), v * (big - 3 * m) / (big + m), 5e-15);
-  EXPECT_NEAR(stated(file, "h ((3 M - m)/(M + m))^2 = "), h * std::pow((3 * big - m) / (big + m), 2), 5e-15);
+  EXPECT_NEAR(stated(file, "h ((3 M - m)/(M + m))^2 = "), h * pow((3 * big - m) / (big + m), 2), 5e-15);
 }
 
 TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
@@ -116,7 +115,7 @@ TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
   EXPECT_NEAR(along.dot(run.end.position[0]) - from, a * 9 / 2, 2e-14);  // measured: 5e-15
   EXPECT_NEAR(along.dot(run.end.velocity[0]), a * 3, 1e-14);
 
-  EXPECT_NEAR(up.dot(run.end.position[0]), 0.1 * std::sqrt(2), 1e-14);
+  EXPECT_NEAR(up.dot(run.end.position[0]), 0.1 * sqrt(2), 1e-14);
   EXPECT_NEAR(run.end.position[0].z(), 0, 1e-14);
   EXPECT_NEAR(up.dot(run.end.velocity[0]), 0, 1e-14);
   EXPECT_NEAR(run.end.velocity[0].z(), 0, 1e-14);
@@ -126,7 +125,7 @@ TEST(TiltedGroove, TheBallSlidesOnWithGSinTilt) {
   EXPECT_NEAR(stated(file, "g sin 10 = "), a, 1e-15);
   EXPECT_NEAR(stated(file, "1.702906901517403 m/s^2, "), a * 9 / 2, 5e-15);
   EXPECT_NEAR(stated(file, "where it moves at "), a * 3, 5e-15);
-  EXPECT_NEAR(stated(file, "r sqrt(2) = "), 0.1 * std::sqrt(2), 5e-16);
+  EXPECT_NEAR(stated(file, "r sqrt(2) = "), 0.1 * sqrt(2), 5e-16);
 }
 
 TEST(BallsInABox, ComeToRestOnTheFloor) {

@@ -1,8 +1,6 @@
 // Scenes of drag, an attractor and a spring, against their comments.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
@@ -43,7 +41,7 @@ TEST(Bumper, BouncesOnEveryHalfSwing) {
   for (size_t n = 0; n < run.collisions.size(); ++n) {
     const double k = static_cast<double>(n);
     EXPECT_NEAR(run.collisions[n].time, first + k * swing, 1e-10);  // measured: 4e-11
-    EXPECT_NEAR(run.collisions[n].approach_speed, 5 * std::pow(0.8, k), 1e-10);
+    EXPECT_NEAR(run.collisions[n].approach_speed, 5 * pow(0.8, k), 1e-10);
   }
 }
 

@@ -1,8 +1,6 @@
 // What moves bodies in every scene, against the table of modes (modes.h).
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "run/engine.h"
 #include "scenes/play.h"
 #include "simulate/loop/exact_simulator.h"
@@ -36,7 +34,7 @@ TEST(ModesOfScenes, NoOtherTransitionHappens) {
 
   // The scenes make most changes of the table. Single bodies make the others (simulate/modes_test.cpp).
   size_t seen = 0;
-  for (const auto& from : all) seen += static_cast<size_t>(std::ranges::count_if(from, [](auto n) { return n > 0; }));
+  for (const auto& from : all) seen += static_cast<size_t>(ranges::count_if(from, [](auto n) { return n > 0; }));
   EXPECT_GE(seen, 18u);
 }
 

@@ -81,8 +81,7 @@ TEST_P(Otherwise, WithAnotherSceneFarAwayItHasTheSameBits) {
     if ((away - plane.point).dot(plane.normal) < 50) return;  // it would be behind this plane
 
   for (const bool first : {true, false}) {
-    if (!first && std::ranges::any_of(motion.world.forces, [](const Force& force) { return !force.on.empty(); }))
-      continue;
+    if (!first && any_of(motion.world.forces, [](const Force& force) { return !force.on.empty(); })) continue;
 
     Motion other = neighbour();
     other.world.gravity = motion.world.gravity;

@@ -1,7 +1,6 @@
 // A gas that a moving plane compresses: its adiabat, with the pressure and the viscosity of hard spheres.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "physics/energy.h"
@@ -25,8 +24,8 @@ double compression(bool dense, bool viscous) {
   const auto power = [&](double time, double energy) {
     const double whole = length - u * time, room = whole - d, kt = 2 * energy / (3 * count);
     const double eta = count * 4 / 3 * std::numbers::pi * radius * radius * radius / whole;
-    const double z = dense ? (1 + eta + eta * eta - eta * eta * eta) / std::pow(1 - eta, 3) : 1;
-    const double mu = viscous ? 1.016 * 5 / (16 * d * d) * std::sqrt(kt / std::numbers::pi) : 0;
+    const double z = dense ? (1 + eta + eta * eta - eta * eta * eta) / pow(1 - eta, 3) : 1;
+    const double mu = viscous ? 1.016 * 5 / (16 * d * d) * sqrt(kt / std::numbers::pi) : 0;
     return (count * kt * z / (room * area) + 4 * mu * u / (3 * room)) * area * u;
   };
 
@@ -36,7 +35,7 @@ double compression(bool dense, bool viscous) {
 }
 
 TEST(Piston, TheCommentHasTheNumbersOfTheAdiabat) {
-  EXPECT_NEAR(std::pow(1.96 / 0.96, 2.0 / 3), stated(file, "T V^(2/3) stays constant, a factor of "), 1e-6);
+  EXPECT_NEAR(pow(1.96 / 0.96, 2.0 / 3), stated(file, "T V^(2/3) stays constant, a factor of "), 1e-6);
   EXPECT_NEAR(compression(false, false), stated(file, "T V^(2/3) stays constant, a factor of "), 1e-6);
   EXPECT_NEAR(compression(true, false), stated(file, "(J. Chem. Phys. 51 (1969) 635) "), 1e-6);
   EXPECT_NEAR(compression(true, true), stated(file, "along its axis first: "), 1e-6);
@@ -61,7 +60,7 @@ TEST(Piston, HeatsTheGasByTheAdiabat) {
   double sum = 0, squares = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
     LoadOptions options;
-    options.set = {"seed=" + std::to_string(seed)};
+    options.set = {"seed=" + to_string(seed)};
     const Scene scene = load_scene(SCENES_DIR "/piston.yaml", options);
     const auto simulator = make_exact_simulator(scene.world, scene.initial, {.duration = duration});
 
@@ -71,7 +70,7 @@ TEST(Piston, HeatsTheGasByTheAdiabat) {
     sum += factor, squares += factor * factor;
   }
 
-  const double mean = sum / seeds, error = std::sqrt((squares / seeds - mean * mean) / (seeds - 1));
+  const double mean = sum / seeds, error = sqrt((squares / seeds - mean * mean) / (seeds - 1));
   EXPECT_NEAR(mean, stated(file, "over the seeds 1 to 12: "), 1e-6);
   EXPECT_LT(error, 0.01);
   EXPECT_NEAR(mean, compression(true, true), 3 * error);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -23,7 +21,7 @@ vector<string> scene_names() {
     if (entry.path().extension() != ".yaml" || entry.path().parent_path().filename() == "sweeps") continue;
     names.push_back(entry.path().lexically_relative(SCENES_DIR).replace_extension().generic_string());
   }
-  std::ranges::sort(names);
+  ranges::sort(names);
   return names;
 }
 
@@ -59,7 +57,7 @@ Entity Played::number(const string& name) const {
   for (Entity e = 0; e < strings_from + scene.world.strings.size(); ++e) {
     if (scene.roster.name(e) == name) return e;
   }
-  throw std::runtime_error("no " + name);
+  throw runtime_error("no " + name);
 }
 
 vector<Collision> Played::of(const string& name) const {

@@ -1,8 +1,6 @@
 // Scenes of regions, against their comments.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
@@ -32,8 +30,8 @@ TEST(Effusion, LosesAsManyBallsAsKineticTheorySays) {
   const string file = "effusion";
   const Crossed run = cross(file);
   const double mean = stated(file, "v = sqrt(8 / pi) = "), rate = stated(file, "of the centres, lose ");
-  EXPECT_NEAR(mean, std::sqrt(8 / M_PI), 5e-4);
-  EXPECT_NEAR(rate, 300 * mean * 0.64 / (4 * std::pow(1.98, 3)), 5e-3);
+  EXPECT_NEAR(mean, sqrt(8 / M_PI), 5e-4);
+  EXPECT_NEAR(rate, 300 * mean * 0.64 / (4 * pow(1.98, 3)), 5e-3);
   int early = 0;
   for (const RegionCrossing& crossing : run.crossings) early += crossing.time < 3;
   // The mean, and four times the spread by chance.

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <numbers>
 
@@ -29,7 +27,7 @@ double measured(const string& name, const string& measure) {
   const vector<Measured> all =
       run_scene({&scene, folder, 0}, choose_engine(scene), {}, {[] {}, [](const RunProgress&) {}}).summary.measures;
   std::filesystem::remove_all(folder);
-  const auto found = std::ranges::find_if(all, [&](const Measured& one) { return one.name == measure; });
+  const auto found = ranges::find_if(all, [&](const Measured& one) { return one.name == measure; });
   EXPECT_NE(found, all.end()) << measure;
   return found == all.end() ? std::nan("") : found->value;
 }
@@ -39,7 +37,7 @@ TEST(Cars, AreStruckWhenAndAsFastAsStated) {
   const Played run = play("cars");
   const Collision& hit = run.collisions.front();
   const double c = 0.1, v = 20 - c * 20, first = 1.2 * 9000 / 10200 * v;
-  EXPECT_NEAR(hit.time, -std::log(1 - c * 20 / 20) / c, 1e-14);
+  EXPECT_NEAR(hit.time, -log(1 - c * 20 / 20) / c, 1e-14);
   EXPECT_NEAR(hit.time, stated("cars", "log(1 - c 20 m / v) / c ="), 1e-14);
   EXPECT_NEAR(hit.approach_speed, v, 1e-13);
   EXPECT_NEAR(hit.impulse / 1200, first, 1e-13);
@@ -56,7 +54,7 @@ TEST(MarbleRun, BringsAllMarblesIntoTheCup) {
   SLOW_WITH_SANITIZERS();
   const double tilt = 12 * std::numbers::pi / 180, fall = 0.25 - 0.39 * std::tan(tilt) - 0.04 / std::cos(tilt);
   const Played run = play("marble_run");
-  EXPECT_NEAR(run.collisions.front().time, std::sqrt(2 * fall / g_n), 1e-14);
+  EXPECT_NEAR(run.collisions.front().time, sqrt(2 * fall / g_n), 1e-14);
   EXPECT_NEAR(fall, stated("marble_run", "r / cos a ="), 1e-7);
   EXPECT_NEAR(run.collisions.front().time, stated("marble_run", "in sqrt(2 s / g) ="), 1e-8);
   EXPECT_EQ(measured("marble_run", "arrived"), 3);
@@ -65,7 +63,7 @@ TEST(MarbleRun, BringsAllMarblesIntoTheCup) {
 }
 
 TEST(BowlingShot, MeetsTheFirstPinWhenStated) {
-  const double reach = 0.108 + 0.06053, time = (3 - std::sqrt(square(reach) - square(0.03))) / 7;
+  const double reach = 0.108 + 0.06053, time = (3 - sqrt(square(reach) - square(0.03))) / 7;
   EXPECT_NEAR(time, stated("bowling_shot", "aim^2)) / v ="), 1e-12);
   EXPECT_NEAR(measured("bowling_shot", "first_hit_s"), time, 1e-13);
   EXPECT_EQ(measured("bowling_shot", "left_on_deck"), 2);
@@ -77,7 +75,7 @@ TEST(Funnel, LetsAllBallsThrough) {
 }
 
 TEST(Planets, FollowKeplersLaws) {
-  const double a = (12 + 0.35) / 2, gm = 4 * square(std::numbers::pi), period = std::pow(a, 1.5);
+  const double a = (12 + 0.35) / 2, gm = 4 * square(std::numbers::pi), period = pow(a, 1.5);
   EXPECT_NEAR(period, stated("planets", "the period is a^(3/2) ="), 1e-13);
   // The earth's orbit is crossed where 1 = a (1 - e cos E).
   const double e = (12 - 0.35) / (12 + 0.35), anomaly = std::acos((1 - 1 / a) / e);
@@ -85,7 +83,7 @@ TEST(Planets, FollowKeplersLaws) {
   EXPECT_NEAR(measured("planets", "arrives_s"), period / 2 - half, 1e-12);
   EXPECT_NEAR(stated("planets", "within the earth's orbit from t ="), period / 2 - half, 1e-13);
   EXPECT_NEAR(stated("planets", "7.565101077051418 s to"), period / 2 + half, 1e-13);
-  const double fastest = std::sqrt(gm * (2 / 0.35 - 1 / a));
+  const double fastest = sqrt(gm * (2 / 0.35 - 1 / a));
   EXPECT_NEAR(measured("planets", "fastest"), fastest, 1e-11);
   EXPECT_NEAR(fastest, stated("planets", "sqrt(gm (2 / 0.35 - 1 / a)) ="), 1e-13);
   EXPECT_NEAR(measured("planets", "farthest_m"), 12, 1e-11);
@@ -100,8 +98,8 @@ TEST(BrickWall, LosesSixBricks) {
 
 TEST(Pool, HasItsFirstHitAndItsBallsInPockets) {
   const double k = 0.05 / 0.17, aim = 0.3 * std::numbers::pi / 180, r = 0.028575, l = 1.27;
-  const double way = l * std::cos(aim) - std::sqrt(square(2 * r) - square(l * std::sin(aim)));
-  const double time = -std::log(1 - k * way / 6) / k;
+  const double way = l * std::cos(aim) - sqrt(square(2 * r) - square(l * std::sin(aim)));
+  const double time = -log(1 - k * way / 6) / k;
   EXPECT_NEAR(way, stated("pool", "(l sin a)^2) ="), 1e-12);
   EXPECT_NEAR(time, stated("pool", "log(1 - k s / v) / k ="), 1e-12);
   EXPECT_NEAR(play("pool").collisions.front().time, time, 1e-14);
@@ -113,10 +111,10 @@ double pendulum_period(double angle) {
   double a = 1, b = std::cos(angle / 2);
   while (std::abs(a - b) > 1e-15) {
     const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
+    b = sqrt(a * b);
     a = mean;
   }
-  return 2 * std::numbers::pi / (a * std::sqrt(g_n));
+  return 2 * std::numbers::pi / (a * sqrt(g_n));
 }
 
 TEST(NewtonsCradle, StrikesEachHalfPeriodAndKeepsItsEnergy) {
@@ -124,7 +122,7 @@ TEST(NewtonsCradle, StrikesEachHalfPeriodAndKeepsItsEnergy) {
   EXPECT_NEAR(period, stated("newtons_cradle", "K(sin(aim / 2)) ="), 1e-14);
   EXPECT_NEAR(period / 4, stated("newtons_cradle", "the first strike at T / 4 ="), 1e-14);
 
-  const double speed = std::sqrt(2 * g_n * (1 - std::cos(aim)));
+  const double speed = sqrt(2 * g_n * (1 - std::cos(aim)));
   EXPECT_NEAR(speed, stated("newtons_cradle", "cos aim)) ="), 1e-14);
   EXPECT_NEAR(-std::cos(aim), stated("newtons_cradle", "-l cos aim ="), 1e-14);
 
@@ -140,7 +138,7 @@ TEST(NewtonsCradle, StrikesEachHalfPeriodAndKeepsItsEnergy) {
 }
 
 TEST(SlackPendulum, GoesSlackAndTautWhenStated) {
-  const double u = std::sqrt(g_n / 2), flight = 4 * u * std::sqrt(0.75) / g_n;
+  const double u = sqrt(g_n / 2), flight = 4 * u * sqrt(0.75) / g_n;
   const double slack = stated("slack_pendulum", "sqrt(g l / 2), at t ="), taut = slack + flight;
 
   // The time to 120 degrees, by Gauss-Legendre of order 10 in twenty parts: dt = dangle / sqrt(v^2 - 2 g (1 - cos)).
@@ -156,13 +154,13 @@ TEST(SlackPendulum, GoesSlackAndTautWhenStated) {
     for (int k = 0; k < 5; ++k)
       for (const double sign : {-1.0, 1.0}) {
         const double angle = half * (2 * part + 1 + sign * nodes[k]);
-        sum += half * weights[k] / std::sqrt(g_n * (1.5 + 2 * std::cos(angle)));
+        sum += half * weights[k] / sqrt(g_n * (1.5 + 2 * std::cos(angle)));
       }
 
   EXPECT_NEAR(slack, sum, 1e-14);
   EXPECT_NEAR(taut, stated("slack_pendulum", "cos(30) / g later, at t ="), 1e-14);
 
-  const double jerk = 3 * u * std::sqrt(0.75), swing = std::acos(15.0 / 16);
+  const double jerk = 3 * u * sqrt(0.75), swing = std::acos(15.0 / 16);
   EXPECT_NEAR(jerk, stated("slack_pendulum", "3 u cos 30 ="), 1e-14);
   EXPECT_NEAR(jerk * jerk / 2, stated("slack_pendulum", "81 / 48 g l J ="), 1e-13);
   EXPECT_NEAR(swing * 180 / std::numbers::pi, stated("slack_pendulum", "acos(15 / 16) ="), 1e-12);

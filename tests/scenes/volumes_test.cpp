@@ -1,8 +1,6 @@
 // Scenes of volumes, timed forces, merging and rest, against their comments and the closed forms.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
@@ -32,7 +30,7 @@ TEST(RollingOff, LeavesAtTwoThirdsOfTheHeight) {
   const Played run = play(file, {leave});
   EXPECT_NEAR(run.states[0].position[0].x(), stated(file, "leaves at x = "), 1e-9);
   EXPECT_NEAR(run.states[0].position[0].y(), 0.384, 1e-9);
-  EXPECT_NEAR(run.states[0].velocity[0].norm(), std::sqrt(0.384 * g_n), 1e-9);
+  EXPECT_NEAR(run.states[0].velocity[0].norm(), sqrt(0.384 * g_n), 1e-9);
   ASSERT_FALSE(run.collisions.empty());
   EXPECT_NEAR(run.collisions.back().time, land, 1e-9);
   EXPECT_NEAR(run.collisions.back().position.x(), stated(file, "its centre at x = "), 1e-9);
@@ -46,7 +44,7 @@ TEST(Crates, FallOnceTheLowestIsPast) {
   ASSERT_EQ(strikes.size(), 1u);
   EXPECT_NEAR(strikes[0].time, 0.3875, 1e-15);
   EXPECT_NEAR(run.velocity("low").x(), 8.0 / 3, 1e-14);
-  EXPECT_NEAR(run.of("middle").back().time, 0.575 + std::sqrt(1 / g_n), 1e-13);
+  EXPECT_NEAR(run.of("middle").back().time, 0.575 + sqrt(1 / g_n), 1e-13);
   EXPECT_NEAR(run.position("high").y(), 0.75, 1e-13);
   const auto contacts = contacts_at(run.scene, 0.1);
   EXPECT_NEAR(force(contacts, run.number("middle"), run.number("high")), 10 * g_n, 1e-10);

@@ -2,11 +2,10 @@
 // right angles along x and y. v = 5 m/s, m = 10 kg, r = 0.11 m, e = 0.9, dt = 1/60 s.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -21,7 +20,7 @@ struct Phase {
 /// Two balls that would meet at the origin, `phase` of a frame later than the first instant of a frame.
 Phase meeting(bool right_angle, double phase, bool as_printed) {
   Phase p;
-  const double away = 0.11 * (right_angle ? std::sqrt(2.0) : 1) + v * dt * (20 + phase);
+  const double away = 0.11 * (right_angle ? sqrt(2.0) : 1) + v * dt * (20 + phase);
   p.problem.ball({-away, 0, 0}, {v, 0, 0}, 10, 0.11, 0.9);
   if (right_angle)
     p.problem.ball({0, -away, 0}, {0, v, 0}, 10, 0.11, 0.9);

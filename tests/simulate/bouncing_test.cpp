@@ -1,8 +1,6 @@
 // A ball on a plane, against closed forms (data/references/bouncing_ball.json).
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"

@@ -13,8 +13,6 @@
 namespace carom {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// The error that a simulator's run ends with; empty: none.
 template <typename Make>
 string error_of(const Make& make, double duration) {
@@ -23,7 +21,7 @@ string error_of(const Make& make, double duration) {
     run_to_end(*simulator, duration);
     return "";
   } catch (const SimulationError& error) {
-    return error.named([](Entity body) { return "`ball." + std::to_string(body) + "`"; }).what();
+    return error.named([](Entity body) { return "`ball." + to_string(body) + "`"; }).what();
   }
 }
 

@@ -1,8 +1,6 @@
 // Rows of balls: cradles, chains, a small ball on a big one (data/references/chains_cradle_stack.json).
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
@@ -105,7 +103,7 @@ TEST(MassChain, SpeedGrowsAsTheGeometricFormula) {
     Problem problem;
     const int n = r["n"];
     for (int i = 0; i < n; ++i)
-      problem.ball({2.0 * i, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}, std::pow(r["q"].get<double>(), i), 0.5, r["e"]);
+      problem.ball({2.0 * i, 0, 0}, {i == 0 ? 1.0 : 0.0, 0, 0}, pow(r["q"].get<double>(), i), 0.5, r["e"]);
     problem.options.duration = 1000;
 
     const Outcome run = run_exact(problem);
@@ -138,7 +136,7 @@ TEST(StackedDrop, LightOnHeavyNearsTheLadderOfInfiniteMasses) {
 
     Problem problem;
     problem.plane({0, 0, 0}, {0, 1, 0});
-    for (int i = 0; i < n; ++i) problem.ball({0, 1.0 + i * (1 + 0x1p-30), 0}, {0, -1, 0}, std::pow(1e-7, i), 0.5, 1);
+    for (int i = 0; i < n; ++i) problem.ball({0, 1.0 + i * (1 + 0x1p-30), 0}, {0, -1, 0}, pow(1e-7, i), 0.5, 1);
     problem.options.duration = 0.75;
 
     const Outcome run = run_exact(problem);

@@ -1,13 +1,13 @@
 // Orbits and oscillations of the exact engine: free, and with impacts that have closed forms too.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <complex>
 
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/long_kepler.h"
 #include "slow_with_sanitizers.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -48,10 +48,10 @@ double worst(const Problem& given, double mu, double duration, bool mirror) {
 TEST(ClosedFlights, OfAHundredRevolutionsAreKeplers) {
   SLOW_WITH_SANITIZERS();
   for (const double e : {0.0, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999}) {
-    const Vec3 x(1 + e, 0, 0), v(0, std::sqrt((1 - e) / (1 + e)), 0);  // a = 1, from the far end
+    const Vec3 x(1 + e, 0, 0), v(0, sqrt((1 - e) / (1 + e)), 0);  // a = 1, from the far end
     const double duration = 100 * 2 * M_PI;
     // Effect of an error in the last digit on the period, at the greatest speed.
-    const double bound = 4e-16 * 3 * duration * std::sqrt((1 + e) / (1 - e));
+    const double bound = 4e-16 * 3 * duration * sqrt((1 + e) / (1 - e));
     EXPECT_LT(worst(orbit(1, {0, 0, 0}, x, v, 1e-5), 1, duration, false), bound) << e;
     EXPECT_LT(worst(orbit(1, {0, 0, 0}, x, v, 1e-5), 1, duration, true), 10 * bound) << e;
     EXPECT_LT(worst(orbit(1, {3, -2, 1}, x, v, 1e-5), 1, duration, false), 10 * bound) << e;  // rounded off the centre
@@ -61,7 +61,7 @@ TEST(ClosedFlights, OfAHundredRevolutionsAreKeplers) {
 // The greatest speed lies between the ends of steps. measured: 3e-14
 TEST(ClosedFlights, AreFastestAtThePericentre) {
   for (const double e : {0.3, 0.9, 0.99, 0.9999}) {
-    const double fastest = std::sqrt((1 + e) / (1 - e));
+    const double fastest = sqrt((1 + e) / (1 - e));
     Problem problem = orbit(1, {0, 0, 0}, {1 + e, 0, 0}, {0, 1 / fastest, 0}, 1e-5);
     problem.options.duration = 6;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -112,13 +112,13 @@ Problem swing(double stiffness, double drag, double radius) {
 TEST(ClosedFlights, OnASpringAreSines) {
   for (const double stiffness : {1e-2, 1.0, 1e2, 1e5}) {
     Problem problem = swing(stiffness, 0, 0.01);
-    problem.options.duration = 1000 / std::sqrt(stiffness);
+    problem.options.duration = 1000 / sqrt(stiffness);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
 
     for (int k = 1; k <= 20; ++k) {
       const double t = problem.options.duration * k / 20;
       go_to(*simulator, t);
-      const long double w = std::sqrt(stiffness / 2.0L), c = std::cos(w * t), s = std::sin(w * t);
+      const long double w = sqrt(stiffness / 2.0L), c = std::cos(w * t), s = std::sin(w * t);
       const Vec3 there(static_cast<double>(c), static_cast<double>(0.3L * c), static_cast<double>(0.5L / w * s));
       EXPECT_LT((simulator->state().position[0] - there).norm(), 2e-12 * (1 + 0.5 / static_cast<double>(w)))
           << stiffness << " " << t;
@@ -138,7 +138,7 @@ TEST(ClosedFlights, OfStiffSpringsInAnyMediumTakeFewSteps) {
       // x'' + 2 d x' + w^2 x = 0.
       using Complex = std::complex<long double>;
       const long double d = drag / 4.0L, w2 = stiffness / 2.0L;
-      const Complex root = std::sqrt(Complex(d * d - w2)), p = -(w2 / (d + root)), q = -(d + root);
+      const Complex root = sqrt(Complex(d * d - w2)), p = -(w2 / (d + root)), q = -(d + root);
       const auto x = [&](long double x0, long double v0) {
         if (std::abs(root) < 1e-9L * d) return std::exp(-d) * (x0 + v0 + d * x0);
         return ((v0 - q * x0) / (p - q) * std::exp(p) - (v0 - p * x0) / (p - q) * std::exp(q)).real();
@@ -155,7 +155,7 @@ TEST(ClosedFlights, OnASpringBounceExactly) {
   problem.options.duration = 100;
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 100);
-  const long double w = std::sqrt(50.0L);
+  const long double w = sqrt(50.0L);
   EXPECT_NEAR(simulator->state().position[0].x(), static_cast<double>(std::abs(std::cos(w * 100))), 1e-11);
   EXPECT_NEAR(energy(problem, simulator->state()), energy(problem, problem.initial), 1e-10);
   EXPECT_EQ(simulator->tally().collisions(), 225u);

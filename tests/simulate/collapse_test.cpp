@@ -1,8 +1,6 @@
 // Inelastic collapse: infinitely many impacts in finite time. The cluster changes to lasting contact, and the run ends.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/references.h"
@@ -44,7 +42,7 @@ TEST(Collapse, OfThreeBallsInARowBelowTheCriticalRestitution) {
     problem.ball({0, 0, 0}, {0, 0, 0}, 1, 0.5, e);
     problem.ball({2.5, 0, 0}, {-1, 0, 0}, 1, 0.5, e);
 
-    const Outcome run = run_and_watch_energy(problem, 0.25, 1e-13, "e = " + std::to_string(e));
+    const Outcome run = run_and_watch_energy(problem, 0.25, 1e-13, "e = " + to_string(e));
     if (e > 0) {
       EXPECT_GT(run.tally.collapses, 0u) << e;
     }
@@ -76,7 +74,7 @@ TEST(Collapse, OfManyBallsInARowAgainstAWall) {
     problem.plane({0, 0, 0}, {1, 0, 0});
     for (int i = 0; i < n; ++i) problem.ball({2.0 + 1.5 * i, 0, 0}, {-1, 0, 0}, 1, 0.5, 0.3);
     problem.options.duration = 40;
-    const Outcome run = run_and_watch_energy(problem, 0.5, 1e-13, "row of " + std::to_string(n));
+    const Outcome run = run_and_watch_energy(problem, 0.5, 1e-13, "row of " + to_string(n));
     EXPECT_GT(run.tally.collapses, 0u) << n;
     EXPECT_LT(run.tally.collisions(), 40000u) << n;  // measured: 25780 at most, mostly in rounds at one instant
   }
@@ -94,7 +92,7 @@ TEST(Collapse, OfARowComesWithManyBallsAndNotWithFew) {
     problem.plane({0, 0, 0}, {1, 0, 0});
     for (int i = 0; i < n; ++i) problem.ball({1.0 + 1.125 * i, 0, 0}, {-1, 0, 0}, 1, 0.5, e);
     problem.options.duration = 100;
-    const Outcome run = run_and_watch_energy(problem, 1, 1e-13, "row of " + std::to_string(n));
+    const Outcome run = run_and_watch_energy(problem, 1, 1e-13, "row of " + to_string(n));
     EXPECT_EQ(run.tally.collapses > 0, share > 1) << n;
   }
 }
@@ -109,7 +107,7 @@ TEST(Collapse, OfColumnsDroppedOnTheFloorEndsAtRest) {
     // 20 balls move as a crowd: within a step a path is straight, and the energy balance holds at its end.
     // Measured: 1.2e-6.
     const double tolerance = n < 20 ? 1e-12 : 1e-5;
-    const Outcome run = run_and_watch_energy(problem, 0.0625, tolerance, "column of " + std::to_string(n));
+    const Outcome run = run_and_watch_energy(problem, 0.0625, tolerance, "column of " + to_string(n));
     EXPECT_GT(run.tally.collapses, 0u) << n;
     EXPECT_EQ(run.tally.resting, static_cast<uint64_t>(n));
     EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
@@ -127,7 +125,7 @@ TEST(Collapse, OfColumnsOfBoxesDroppedOnTheFloorEndsAtRest) {
       problem.body(Volume::box({0.5, 0.5, 0.5}), {0.01 * i, 0.75 + 0.625 * i, 0}, {0, 0, 0}, 1 + i % 3, 0.5);
     problem.options.duration = 10;
 
-    const Outcome run = run_and_watch_energy(problem, 0.0625, 1e-12, "boxes " + std::to_string(n));
+    const Outcome run = run_and_watch_energy(problem, 0.0625, 1e-12, "boxes " + to_string(n));
     EXPECT_EQ(run.tally.resting, static_cast<uint64_t>(n));
     EXPECT_EQ(kinetic_energy(problem.world, run.end), 0) << n;
     for (size_t i = 0; i < run.end.position.size(); ++i)
@@ -241,7 +239,7 @@ Problem falling_on_a_fixed_ball(double h, double e) {
 TEST(Collapse, ABallOfNoRestitutionIsRecordedWhereItStrikes) {
   const Outcome run = run_exact(falling_on_a_fixed_ball(0.2, 0));
   ASSERT_EQ(run.collisions.size(), 1u);
-  EXPECT_NEAR(run.collisions[0].approach_speed, std::sqrt(2 * g_n * 0.2), 1e-13);
+  EXPECT_NEAR(run.collisions[0].approach_speed, sqrt(2 * g_n * 0.2), 1e-13);
   EXPECT_EQ(run.collisions[0].separation_speed, 0);
   EXPECT_EQ(run.tally.taken_up.impacts, 0u);
   EXPECT_NEAR(run.tally.energy_lost, 2 * g_n * 0.2, 1e-13);

@@ -1,8 +1,6 @@
 // Islands in lasting contact against closed forms and against solutions in special coordinates.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "numerics/polynomial.h"
 #include "physics/force_law.h"
 #include "physics/world.h"
@@ -123,7 +121,7 @@ TEST(ConstrainedMotion, RoofsAndPyramidsComeDownByTheEquationOfTheirOneCoordinat
           EXPECT_NEAR(run.end.position[last].y(), r + 2 * r * std::cos(q), 5e-12);  // measured: 2e-12
           for (size_t b = first; b < last; ++b) {
             const Vec3 out = run.end.position[b] - Vec3(0, 0, 5.0 * c);
-            EXPECT_NEAR(std::hypot(out.x(), out.z()), 2 * r * std::sin(q), 5e-12);
+            EXPECT_NEAR(hypot(out.x(), out.z()), 2 * r * std::sin(q), 5e-12);
             EXPECT_NEAR(out.y(), r, 1e-15);
           }
         }

@@ -3,9 +3,6 @@
 // the pressing contacts, dense, in 64-bit mantissas, give the accelerations. Extrapolated midpoint steps of order 16
 // follow them (Hairer, Norsett & Wanner, Solving Ordinary Differential Equations I, 1993, II.9). A contact opens where
 // its multiplier vanishes. The motion ends before one closes.
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "numerics/vec3.h"
 #include "std.h"
@@ -64,7 +61,7 @@ class ConstrainedReference {
     Motion motion;
     Real time = 0;
     while (time < duration) {
-      const auto [x, v] = std::pair(x_, v_);
+      const auto [x, v] = pair(x_, v_);
       Real h = std::min<Real>(step, duration - time);
       advance(h);
       if (const auto worst = pull(); worst < -tiny) {
@@ -182,7 +179,7 @@ class ConstrainedReference {
     for (size_t c = 0; c < n; ++c) {
       for (size_t d = 0; d <= c; ++d) {
         for (size_t k = 0; k < d; ++k) m[c][d] -= m[c][k] * m[d][k];
-        m[c][d] = c == d ? std::sqrt(m[c][c]) : m[c][d] / m[d][d];
+        m[c][d] = c == d ? sqrt(m[c][c]) : m[c][d] / m[d][d];
       }
       for (size_t k = 0; k < c; ++k) y[c] -= m[c][k] * y[k];
       y[c] /= m[c][c];
@@ -285,8 +282,8 @@ class ConstrainedReference {
         a = accelerate(x1, v1);
         for (size_t k = 0; k < n; ++k) {
           const Vec x2 = x0[k] + 2 * s * v1[k], v2 = v0[k] + 2 * s * a[k];
-          x0[k] = std::exchange(x1[k], x2);
-          v0[k] = std::exchange(v1[k], v2);
+          x0[k] = exchange(x1[k], x2);
+          v0[k] = exchange(v1[k], v2);
         }
       }
 
@@ -342,8 +339,7 @@ class ConstrainedReference {
   size_t open() {
     const vector<size_t> set = pressing();
     const vector<Real> y = multipliers(set, x_, v_);
-    const Real greatest =
-        std::abs(*std::ranges::max_element(y, [](Real p, Real q) { return std::abs(p) < std::abs(q); }));
+    const Real greatest = std::abs(*ranges::max_element(y, [](Real p, Real q) { return std::abs(p) < std::abs(q); }));
     size_t opened = 0;
     for (size_t c = 0; c < set.size(); ++c)
       if (y[c] < 0.5L * tiny * greatest && rows_[set[c]].tie == none) {
@@ -355,8 +351,7 @@ class ConstrainedReference {
 
   /// Whether an overlap has formed without a pressing contact.
   bool closes() const {
-    return std::ranges::any_of(
-        rows_, [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -0.1L * near_; });
+    return any_of(rows_, [&](const Row& row) { return !row.presses && bend_of(row, x_, v_).gap < -0.1L * near_; });
   }
 
   bool slackens() const {

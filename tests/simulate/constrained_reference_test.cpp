@@ -1,8 +1,6 @@
 // Islands of up to 60 balls against an independent solution of high order (constrained_reference.h).
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "physics/force_law.h"
@@ -24,8 +22,7 @@ Problem same(const ConstrainedReference& reference, const vector<size_t>& order,
   for (const auto& [center, radius] : reference.globes) problem.obstacle(center, Volume::sphere(radius));
   for (const size_t k : order) {
     const Entity i = problem.ball(reference.start[k], Vec3::Zero(), reference.mass[k], reference.radius[k], e);
-    problem.world.forces.push_back(
-        {UniformForce{reference.mass[k] * reference.force[k]}, 0, std::numeric_limits<double>::infinity(), {i}});
+    problem.world.forces.push_back({UniformForce{reference.mass[k] * reference.force[k]}, 0, infinity, {i}});
   }
   return problem;
 }
@@ -39,7 +36,7 @@ Errors compare(const ConstrainedReference& reference, const ConstrainedReference
   const size_t n = reference.mass.size();
   vector<size_t> order(n);
   std::iota(order.begin(), order.end(), 0);
-  const double least = *std::ranges::min_element(reference.radius);
+  const double least = *ranges::min_element(reference.radius);
 
   Errors errors;
 
@@ -54,7 +51,7 @@ Errors compare(const ConstrainedReference& reference, const ConstrainedReference
     EXPECT_EQ(run.tally.stepped_contact, 0);
     EXPECT_EQ(run.tally.doubts.contacts, 0u);
 
-    std::ranges::reverse(order);
+    ranges::reverse(order);
   }
   return errors;
 }
@@ -105,7 +102,7 @@ ConstrainedReference random_island(size_t n, uint64_t seed) {
     if (!place_touching(island, r, random, x)) continue;
     island.start.push_back(x);
     island.radius.push_back(r);
-    island.mass.push_back(std::pow(2.0, random(-3, 3)));
+    island.mass.push_back(pow(2.0, random(-3, 3)));
     island.force.emplace_back(random(-2, 2), -g_n + random(-2, 2), random(-2, 2));
   }
   return island;

@@ -24,9 +24,9 @@ unique_ptr<Simulator> stepped(const Problem& problem, double step, Integrator me
 
 TEST(ContactGroup, OfEverySizeComesToRestByEveryMethodAtEveryStep) {
   SLOW_WITH_SANITIZERS();
-  for (const auto& [side, layers] : {std::pair(2, 8), std::pair(3, 10), std::pair(4, 4), std::pair(5, 5)})
+  for (const auto& [side, layers] : {pair(2, 8), pair(3, 10), pair(4, 4), pair(5, 5)})
     for (const auto& [method, step] :
-         {std::pair(Integrator::euler, 0.01), std::pair(Integrator::verlet, 0.01), std::pair(Integrator::rk4, 0.01)}) {
+         {pair(Integrator::euler, 0.01), pair(Integrator::verlet, 0.01), pair(Integrator::rk4, 0.01)}) {
       SCOPED_TRACE(testing::Message() << side << " by " << layers << ", " << static_cast<int>(method) << ", " << step);
       Problem problem = loose_pile(side, layers, 200);
       problem.world.forces = {{Drag{1, 0, Vec3::Zero()}}};  // else balls that are free may slide on and on

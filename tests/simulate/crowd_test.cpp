@@ -1,7 +1,6 @@
 // Crowds: steps of islands with contacts that change too often to be followed one by one.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstring>
 
 #include "physics/world.h"
@@ -128,7 +127,7 @@ TEST(CrowdRows, OfOneGroupShareNoBody) {
       bodies.insert(bodies.end(), {group.a[lane], group.b[lane]});
     }
 
-    std::ranges::sort(bodies);
+    ranges::sort(bodies);
     EXPECT_EQ(std::unique(bodies.begin(), bodies.end()), bodies.end());
   }
   EXPECT_EQ(seen, pairs.size());
@@ -196,7 +195,7 @@ TEST(CrowdSlabs, OfOnePhaseShareNoBody) {
 
   for (const vector<CrowdRows::Pair>& part : parts) seen += part.size();
   EXPECT_EQ(seen, pairs.size());
-  for (const auto& [first, last] : {std::pair{0, 8}, std::pair{8, 12}, std::pair{12, 15}}) {
+  for (const auto& [first, last] : {pair{0, 8}, pair{8, 12}, pair{12, 15}}) {
     vector<int> owner(9000, -1);
     for (int p = first; p < last; ++p)
       for (const CrowdRows::Pair& pair : parts[static_cast<size_t>(p)])
@@ -280,7 +279,7 @@ TEST(CrowdMotion, KeepsTheMomentumOfClusters) {
   for (int cluster = 0; cluster < 2; ++cluster)
     for (int k = 0; k < 64; ++k) {
       const Vec3 place(k % 4 * 0.1 + 0.5 * cluster, k / 4 % 4 * 0.1 + 0.03 * cluster, k / 16 * 0.1 + 0.02 * cluster);
-      problem.ball(place, Vec3(cluster == 0 ? 1 : -1, 0, 0), std::pow(10, random(-2, 2)), 0.05, 0.5);
+      problem.ball(place, Vec3(cluster == 0 ? 1 : -1, 0, 0), pow(10, random(-2, 2)), 0.05, 0.5);
     }
   AloneInACrowd crowd(problem);
 
@@ -355,7 +354,7 @@ Problem wide_pile(int threads, double sign) {
 TEST(CrowdMotion, HasTheSameBitsByAnyNumberOfThreadsAndMirrored) {
   SLOW_WITH_SANITIZERS();
   vector<State> ends;
-  for (const auto& [threads, sign] : {std::pair{1, 1}, std::pair{2, 1}, std::pair{4, 1}, std::pair{3, -1}}) {
+  for (const auto& [threads, sign] : {pair{1, 1}, pair{2, 1}, pair{4, 1}, pair{3, -1}}) {
     const Problem problem = wide_pile(threads, sign);
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     go_to(*simulator, problem.options.duration);
@@ -435,7 +434,7 @@ Problem heavy_on_light(int seed) {
     const double bottom = places.size() < 150 ? 0.5 : 30.5;
     const double x = random(0.5, 9.5), y = random(bottom, bottom + 29), z = random(0.5, 9.5);
     const auto meets = [&](const Vec3& place) { return (place - Vec3(x, y, z)).norm() < 1; };
-    if (std::ranges::none_of(places, meets)) places.emplace_back(x, y, z);
+    if (none_of(places, meets)) places.emplace_back(x, y, z);
   }
   for (size_t i = 0; i < 300; ++i) problem.ball(places[i], Vec3::Zero(), i < 150 ? 1 : 1000, 0.5, 0.5);
 

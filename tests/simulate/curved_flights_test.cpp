@@ -2,7 +2,6 @@
 // energy balance.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <tuple>
 
 #include "physics/world.h"
@@ -23,11 +22,11 @@ Force spring(Entity on, const Vec3& anchor, double stiffness, double rest_length
 
 TEST(CurvedFlights, KeepToKeplersEllipses) {
   Problem problem;
-  problem.ball({1, 0, 0}, {0, std::sqrt(0.5), 0}, 1, 0.01);  // from the far end of an ellipse of eccentricity 1/2
+  problem.ball({1, 0, 0}, {0, sqrt(0.5), 0}, 1, 0.01);  // from the far end of an ellipse of eccentricity 1/2
   Force attractor;
   attractor.law = Attractor{Vec3::Zero(), 1, 0};
   problem.world.forces.push_back(attractor);
-  const double period = 2 * std::acos(-1.0) * std::pow(2.0 / 3, 1.5);
+  const double period = 2 * std::acos(-1.0) * pow(2.0 / 3, 1.5);
   problem.options.duration = 10 * period;
   const Outcome outcome = run_exact(problem);
   EXPECT_LT((outcome.end.position[0] - Vec3(1, 0, 0)).norm(), 5e-11);  // measured: 1.9e-11 m
@@ -137,14 +136,13 @@ TEST(CurvedFlights, ThroughTheAnchorOfASpringWithARestLengthAreOscillationsPutTo
         problem.ball(anchor + start * line, Vec3::Zero(), 1, 0.1);
         problem.world.forces = {spring(0, anchor, stiffness, length, 0)};
 
-        const double period = 4 * std::acos(-length / (start - length)) / std::sqrt(stiffness);
+        const double period = 4 * std::acos(-length / (start - length)) / sqrt(stiffness);
         problem.options.duration = 100 * period;
 
         const Outcome outcome = run_exact(problem);
         EXPECT_LT((outcome.end.position[0] - problem.initial.position[0]).norm(), 2e-6) << line << stiffness;
         EXPECT_NEAR(energy(problem, outcome.end) / energy(problem, problem.initial), 1, 2e-9) << line << stiffness;
-        EXPECT_NEAR(outcome.tally.fastest.speed / ((start - length) * std::sqrt(stiffness)), 1, 1e-9)
-            << line << stiffness;
+        EXPECT_NEAR(outcome.tally.fastest.speed / ((start - length) * sqrt(stiffness)), 1, 1e-9) << line << stiffness;
       }
 }
 
@@ -205,7 +203,7 @@ TEST(CurvedFlights, ComeToRestOnAFloorUnderDrag) {
   problem.world.forces.push_back(drag);
   const Outcome outcome = run_exact(problem);
   // It strikes at sqrt(g / k) tanh, with v^2 = (g / k) (1 - exp(-2 k h)), k the drag by the mass.
-  EXPECT_NEAR(outcome.collisions.front().approach_speed, std::sqrt(20 * (1 - std::exp(-9.9))), 1e-11);
+  EXPECT_NEAR(outcome.collisions.front().approach_speed, sqrt(20 * (1 - std::exp(-9.9))), 1e-11);
   EXPECT_EQ(outcome.end.position[0], Vec3(0, 0.1, 0));
   EXPECT_EQ(outcome.end.velocity[0], Vec3(Vec3::Zero()));
   EXPECT_EQ(outcome.tally.resting, 1u);
@@ -254,7 +252,7 @@ TEST(CurvedFlights, OfACradleInStepsOfAMethodMakeNoEnergyEither) {
   for (const int balls : {3, 7})
     for (const double stiffness : {1e3, 1e5})
       for (const double damping : {0.0, 100.0})
-        for (const auto& [method, step] : {std::pair(Integrator::rk4, 1e-3), std::pair(Integrator::verlet, 1e-4)}) {
+        for (const auto& [method, step] : {pair(Integrator::rk4, 1e-3), pair(Integrator::verlet, 1e-4)}) {
           Problem problem = cradle(balls, stiffness, damping);
           problem.options.integrator = method;
           problem.options.step = step;

@@ -66,8 +66,8 @@ TEST(Determinism, ACrowdInStepsHasTheSameBitsInEveryBuild) {
   options.step = 0.005;
 
   for (const auto& [method, hash] :
-       {std::pair(Integrator::euler, 16177003933122412586u), std::pair(Integrator::verlet, 11117665312863948820u),
-        std::pair(Integrator::rk4, 10729463312428075050u)}) {
+       {pair(Integrator::euler, 16177003933122412586u), pair(Integrator::verlet, 11117665312863948820u),
+        pair(Integrator::rk4, 10729463312428075050u)}) {
     options.integrator = method;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, options);
     EXPECT_EQ(hash_of(run_to_end(*simulator, 3)), hash) << static_cast<int>(method);

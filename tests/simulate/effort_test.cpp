@@ -107,13 +107,13 @@ TEST(Effort, WhatLiesBeyondTheDurationIsNotScheduled) {
 
   p.options.duration = 0.999;
   Counted shorter(p);
-  EXPECT_EQ(shorter.at(0.999).next, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(shorter.at(0.999).next, infinity);
   EXPECT_EQ(shorter.collisions(), 0U);
 
   p.options.duration = 1.001;
   Counted longer(p);
   EXPECT_LE(longer.at(0).next, 1.001);
-  EXPECT_EQ(longer.at(1.001).next, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(longer.at(1.001).next, infinity);
   EXPECT_EQ(longer.collisions(), 2U);
 
   // A gas always has pending events, and none at its end.
@@ -128,7 +128,7 @@ TEST(Effort, WhatLiesBeyondTheDurationIsNotScheduled) {
   gas.options.duration = 5;
   Counted counted(gas);
   EXPECT_LE(counted.at(4).next, 5);
-  EXPECT_EQ(counted.at(5).next, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(counted.at(5).next, infinity);
 }
 
 TEST(Effort, RestingBodiesCostNothing) {
@@ -139,7 +139,7 @@ TEST(Effort, RestingBodiesCostNothing) {
   p.options.duration = 1e9;
   Counted counted(p);
   const Effort rested = counted.at(100), later = counted.at(1e9);
-  EXPECT_EQ(rested.next, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(rested.next, infinity);
   EXPECT_EQ(later.events, rested.events);
   EXPECT_EQ(later.pair_tests, rested.pair_tests);
   EXPECT_EQ(later.surface_tests, rested.surface_tests);

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <utility>
-
 #include "physics/world.h"
 #include "simulate/contact/region_exit.h"
 #include "simulate/exact_parts.h"

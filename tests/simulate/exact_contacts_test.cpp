@@ -223,7 +223,7 @@ TEST(MergedBodies, HaveTheSumOfMassesAndVolumes) {
   EXPECT_FALSE(merged.any());
   merged.join(1, 0);
   EXPECT_EQ(merged.world().mass[1], 4);
-  EXPECT_DOUBLE_EQ(std::pow(merged.world().radius[1], 3), 2 * 0.125);
+  EXPECT_DOUBLE_EQ(pow(merged.world().radius[1], 3), 2 * 0.125);
   EXPECT_EQ(merged.world().restitution[1], 0.25);
   EXPECT_EQ(merged.whole_of()[0], 1u);
   EXPECT_EQ(merged.given().mass[1], 3);

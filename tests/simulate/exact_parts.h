@@ -1,6 +1,5 @@
 #pragma once
 // The exact simulator's parts, put together without its loop.
-#include <utility>
 
 #include "simulate/build.h"
 #include "simulate/contact/collapse_detector.h"
@@ -13,6 +12,7 @@
 #include "simulate/island/constrained_motion.h"
 #include "simulate/path/crossings.h"
 #include "simulate/path/path_log.h"
+#include "std.h"
 
 namespace carom {
 

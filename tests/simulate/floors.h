@@ -1,7 +1,5 @@
 #pragma once
 // Random level floors of many pieces, and a body, or a body with riders, that slides over them.
-#include <algorithm>
-#include <cmath>
 
 #include "simulate/build.h"
 #include "simulate/random.h"
@@ -58,7 +56,7 @@ inline Crossing random_crossing(Sliding kind, uint64_t seed, int riders = 0) {
 
   double y = top;
   for (int k = riders; k >= 0; --k) {
-    const double r = random(0.05, 0.5), mass = std::exp2(std::floor(random(-3, 4)));
+    const double r = random(0.05, 0.5), mass = std::exp2(floor(random(-3, 4)));
     const Sliding shape = k == 0 ? kind : random(0, 1) < 0.5 ? Sliding::box : Sliding::cylinder;
 
     crossing.start.emplace_back(from + Vec3(0, y + r, 0));
@@ -79,8 +77,8 @@ inline string fault_of(const Crossing& crossing) {
   for (size_t k = 0; k < crossing.start.size(); ++k)
     off = std::max(
         off, (run.end.position[k] - crossing.start[k] - crossing.problem.options.duration * crossing.velocity).norm());
-  if (!run.collisions.empty()) return std::to_string(run.collisions.size()) + " collisions";
-  if (!(off < 1e-12)) return "off by " + std::to_string(1e12 * off) + "e-12 m";  // measured: 1e-13
+  if (!run.collisions.empty()) return to_string(run.collisions.size()) + " collisions";
+  if (!(off < 1e-12)) return "off by " + to_string(1e12 * off) + "e-12 m";  // measured: 1e-13
   if (run.tally.stepped_contact > 0) return "as a crowd";
   return run.tally.taken_up.impacts > 0 ? "impacts are taken up" : "";
 }

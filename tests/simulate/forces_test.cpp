@@ -1,16 +1,14 @@
 // Forces that set in and cease, impulses, and bodies under unequal accelerations.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr double for_ever = std::numeric_limits<double>::infinity();
+constexpr double for_ever = infinity;
 
 /// A path of parabolas.
 struct Path {
@@ -73,7 +71,7 @@ TEST(TimedForces, BallsUnderUnequalAccelerationsMeetAtTheRootOfTheirGap) {
   problem.options.duration = 2;
 
   const Outcome run = run_exact(problem);
-  const double t = std::sqrt(4.0 / 3);
+  const double t = sqrt(4.0 / 3);
   ASSERT_EQ(run.collisions.size(), 1u);
   EXPECT_NEAR(run.collisions[0].time, 0.5 + t, 4e-16);
   EXPECT_NEAR(run.collisions[0].approach_speed, 3 * t, 1e-15);
@@ -93,7 +91,7 @@ TEST(TimedForces, ABallIsLiftedOffTheFloorAndComesBack) {
   problem.options.duration = 10;
   const Outcome run = run_exact(problem);
   ASSERT_EQ(run.collisions.size(), 1u);
-  EXPECT_NEAR(run.collisions[0].time, 2.25 + std::sqrt(2 * 1.25 / 8), 1e-15);
+  EXPECT_NEAR(run.collisions[0].time, 2.25 + sqrt(2 * 1.25 / 8), 1e-15);
   EXPECT_EQ(run.end.velocity[0], Vec3(0.5, 0, 0));
   EXPECT_NEAR(run.end.position[0].x(), 5, 2e-15);
   EXPECT_NEAR(run.tally.work, 10, 1e-14);
@@ -108,7 +106,7 @@ TEST(TimedForces, AForceTooWeakToLiftChangesWhatTheFloorCarries) {
   problem.options.duration = 3;
 
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  for (const auto& [time, force] : {std::pair(0.5, 16.0), std::pair(1.5, 6.0), std::pair(2.5, 16.0)}) {
+  for (const auto& [time, force] : {pair(0.5, 16.0), pair(1.5, 6.0), pair(2.5, 16.0)}) {
     go_to(*simulator, time);
     EXPECT_EQ(force_between(*simulator, 0, 1), force) << time;
     EXPECT_EQ(simulator->state().velocity[0], Vec3(0, 0, 0));

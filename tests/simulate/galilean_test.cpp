@@ -2,8 +2,6 @@
 // the scene at rest, displaced by that velocity times the time. This holds for every kind of contact.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"
@@ -13,7 +11,7 @@
 namespace carom {
 namespace {
 
-constexpr double forever = std::numeric_limits<double>::infinity();
+constexpr double forever = infinity;
 
 /// The same scene with everything moving at u (m/s). Wind moves along.
 Problem moving(Problem problem, const Vec3& u) {
@@ -94,7 +92,7 @@ Problem train() {
 Problem pyramid() {
   Problem problem = falling(1);
   for (int k = 0; k < 3; ++k) problem.ball({1.0 * k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0.5);
-  for (int k = 0; k < 2; ++k) problem.ball({0.5 + k, 0.5 + std::sqrt(0.75), 0}, {0, 0, 0}, 1.5, 0.5, 0.5);
+  for (int k = 0; k < 2; ++k) problem.ball({0.5 + k, 0.5 + sqrt(0.75), 0}, {0, 0, 0}, 1.5, 0.5, 0.5);
   problem.plane({0, 0, 0}, {0, 1, 0});
   problem.plane({-0.5, 0, 0}, {1, 0, 0});
   problem.plane({2.5, 0, 0}, {-1, 0, 0});

@@ -1,8 +1,6 @@
 // Many balls in a room: invariants without reference values.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "physics/world.h"
@@ -43,7 +41,7 @@ bool same_bits(const Outcome& a, const Outcome& b) {
 
 /// The deepest overlap of any pair or surface of a room, over all of them. Negative: none.
 double deepest_overlap(const World& world, const State& state) {
-  double deepest = -std::numeric_limits<double>::infinity();
+  double deepest = -infinity;
   for (Entity i = 0; i < world.body_count(); ++i) {
     for (Entity j = 0; j < i; ++j)
       deepest = std::max(deepest, world.radius[i] + world.radius[j] - (state.position[i] - state.position[j]).norm());

@@ -1,9 +1,6 @@
 // Rest on several surfaces at once, and balls on balls.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "std.h"
@@ -27,8 +24,8 @@ TEST(Groove, ABallComesToRestInBothPlanesAndSlidesOnByTheClosedForm) {
   EXPECT_NEAR(x.z(), 0.25 * 20 + 0.5 * 2 * 400, 1e-12 * 405);
   EXPECT_NEAR(v.z(), 0.25 + 2 * 20, 1e-13 * 40);
   EXPECT_NEAR(x.x(), 0, 1e-12);
-  EXPECT_NEAR(x.y(), 0.1 * std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(std::hypot(v.x(), v.y()), 0, 1e-12);
+  EXPECT_NEAR(x.y(), 0.1 * sqrt(2.0), 1e-12);
+  EXPECT_NEAR(hypot(v.x(), v.y()), 0, 1e-12);
   EXPECT_EQ(run.tally.resting, 1u);
   EXPECT_LT(run.tally.collisions(), 2000u);
 }
@@ -56,7 +53,7 @@ Problem groove_of_planes() {
 
 TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
   Problem problem = groove_of_planes();
-  const double height = 0.5 * std::sqrt(2.0);
+  const double height = 0.5 * sqrt(2.0);
   for (double z : {0.5, 1.5, 2.5 + 1e-9}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
   problem.options.duration = 1;
 
@@ -66,14 +63,14 @@ TEST(Groove, ABallThatLeansOnRestingOnesOnlyJustStruckRestsWithThem) {
   EXPECT_EQ(simulator->tally().resting, 3u);
 
   const auto contacts = simulator->contacts();
-  const auto pair = std::ranges::find_if(contacts, [](const ContactForce& c) { return c.b == 2; });
+  const auto pair = ranges::find_if(contacts, [](const ContactForce& c) { return c.b == 2; });
   ASSERT_NE(pair, contacts.end());
   EXPECT_NEAR(pair->force, 1, 1e-12);  // N, of the ball's weight along the groove
 }
 
 TEST(Groove, BallsAtRestInItStandStillWhileAnotherRollsOffABall) {
   Problem problem = groove_of_planes();
-  const double height = 0.5 * std::sqrt(2.0);
+  const double height = 0.5 * sqrt(2.0);
   for (double z : {0.5, 1.5}) problem.ball({0, height, z}, {0, 0, 0}, 1, 0.5, 0.5);
   problem.obstacle({10, 20, 10}, Volume::sphere(2));
   problem.body(Volume::sphere(0.5), {10, 22.5, 10}, {0.01, 0, 0}, 1, 0.5);

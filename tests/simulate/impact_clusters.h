@@ -2,8 +2,6 @@
 // Clusters of touching balls for tests of impacts at one instant: closed forms, and random ones.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <random>
 
@@ -201,8 +199,8 @@ class RandomCluster {
  private:
   /// Each ball touches one that is there, and no other by more than rounding.
   void place() {
-    const double h = std::sqrt(3.0);
-    const double q = std::sqrt(2.0);
+    const double h = sqrt(3.0);
+    const double q = sqrt(2.0);
     const vector<Vec3> flat{{2, 0, 0}, {-2, 0, 0}, {1, h, 0}, {-1, h, 0}, {1, -h, 0}, {-1, -h, 0}};
     const vector<Vec3> deep{{q, q, 0},  {q, -q, 0},  {-q, q, 0}, {-q, -q, 0}, {q, 0, q},  {q, 0, -q},
                             {-q, 0, q}, {-q, 0, -q}, {0, q, q},  {0, q, -q},  {0, -q, q}, {0, -q, -q}};
@@ -210,7 +208,7 @@ class RandomCluster {
 
     for (int tries = 0; x_.size() < most_ && tries < 20'000; ++tries) {
       const size_t i = draw_.below(x_.size());
-      const double r = on_lattice_ ? 1 : std::pow(10, draw_.between(-0.3, 0.3));
+      const double r = on_lattice_ ? 1 : pow(10, draw_.between(-0.3, 0.3));
       const Vec3 at = on_lattice_ ? Vec3(x_[i] + steps[draw_.below(steps.size())])
                                   : Vec3(x_[i] + (radius_[i] + r) * draw_.direction(planar_));
       bool clear = true;
@@ -251,7 +249,7 @@ class RandomCluster {
     for (const Vec3& at : x_) middle += at / static_cast<double>(x_.size());
 
     for (const Vec3& at : x_) {
-      cluster_.mass.push_back(std::pow(10, draw_.between(-decades_ / 2, decades_ / 2)));
+      cluster_.mass.push_back(pow(10, draw_.between(-decades_ / 2, decades_ / 2)));
       Vec3 v = Vec3::Zero();
       if (motion_ == 0) v = draw_.between(0, 1) * draw_.direction(planar_);
       if (motion_ == 2) v = 0.1 * (middle - at);
@@ -414,7 +412,7 @@ inline void examine_books(const Cluster& cluster, const Resolved& outcome, Findi
 
 /// With e = 0 throughout, the outcome is one projection.
 inline void examine_projection(const Cluster& cluster, const Resolved& outcome, Findings& all) {
-  if (!std::ranges::all_of(cluster.rows, [](const ImpactSet::Row& r) { return r.restitution == 0; })) return;
+  if (!all_of(cluster.rows, [](const ImpactSet::Row& r) { return r.restitution == 0; })) return;
   vector<double> inverse_mass;
   vector<ContactConstraint> rows;
   for (const double mass : cluster.mass) inverse_mass.push_back(1 / mass);
@@ -442,9 +440,9 @@ inline void examine_projection(const Cluster& cluster, const Resolved& outcome, 
 
   const double energy = std::max(cluster.energy(cluster.v), cluster.energy(v));
   if (energy == 0) return;
-  const double apart = tied ? std::abs(std::sqrt(one) - std::sqrt(other)) : std::sqrt(off);
+  const double apart = tied ? std::abs(sqrt(one) - sqrt(other)) : sqrt(off);
   double& greatest = tied ? all.distance : all.projection;
-  greatest = std::max(greatest, apart / std::sqrt(2 * energy));
+  greatest = std::max(greatest, apart / sqrt(2 * energy));
 }
 
 inline void examine(uint64_t seed, uint64_t most, Findings& all, Walls walls = Walls::still) {

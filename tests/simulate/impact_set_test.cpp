@@ -11,7 +11,7 @@ namespace {
 
 using namespace impact_clusters;
 
-const double root_of_3 = std::sqrt(3.0);
+const double root_of_3 = sqrt(3.0);
 
 void expect_velocities(const Resolved& outcome, const vector<Vec3>& expected, const string& what = "") {
   ASSERT_TRUE(outcome.finished) << what;
@@ -94,8 +94,8 @@ TEST(ImpactSet, EqualElasticBallsInARowExchangeSpeeds) {
     for (size_t i = 0; i < n; ++i)
       speed.push_back(k % 2 == 0 ? draw.between(-1, 1) : static_cast<double>(draw.below(4)));
     vector<double> sorted = speed;
-    std::ranges::sort(sorted);
-    expect_speeds_x(resolve(row(vector<double>(n, 1), speed, {1})), sorted, "row " + std::to_string(k));
+    ranges::sort(sorted);
+    expect_speeds_x(resolve(row(vector<double>(n, 1), speed, {1})), sorted, "row " + to_string(k));
   }
 }
 

@@ -1,9 +1,7 @@
 // Impacts of one instant in whole runs: what is symmetric stays so, names decide nothing, and the books balance.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numeric>
-#include <set>
 
 #include "simulate/build.h"
 #include "std.h"
@@ -11,7 +9,7 @@
 namespace carom {
 namespace {
 
-const double half_root_of_3 = std::sqrt(3.0) / 2;
+const double half_root_of_3 = sqrt(3.0) / 2;
 
 /// The triangle of a break, with `rows` rows of balls of radius 0.5 m, and a ball that strikes it at 10 m/s. off: m,
 /// beside its axis.
@@ -135,11 +133,11 @@ TEST(InstantImpacts, TwoStringsThatGoTautAtOnceKeepTheirBobOnItsAxis) {
   for (const double side : {-6.0, 6.0}) {
     problem.world.strings.push_back({0, no_entity, {side, 0, 0}, 10, 0.5, false});
   }
-  problem.options.duration = std::sqrt(1.6) + 0.1;
+  problem.options.duration = sqrt(1.6) + 0.1;
   const Outcome run = run_exact(problem);
   ASSERT_EQ(run.collisions.size(), 2u);
   EXPECT_EQ(run.end.velocity[0].x(), 0);
-  EXPECT_NEAR(run.end.velocity[0].y(), 0.5 * std::sqrt(160.0) - 1, 1e-12);
+  EXPECT_NEAR(run.end.velocity[0].y(), 0.5 * sqrt(160.0) - 1, 1e-12);
 }
 
 TEST(InstantImpacts, TheBooksBalance) {
@@ -200,7 +198,7 @@ TEST(InstantImpacts, WhatRigidBodiesLeaveOpenIsCounted) {
   EXPECT_EQ(elastic.ties, 0u);
   EXPECT_NEAR(elastic.first, 0.2, 1e-15);
   EXPECT_EQ(elastic.body, 1u);
-  EXPECT_EQ(std::set({elastic.one, elastic.other}), std::set({Entity{2}, Entity{3}}));
+  EXPECT_EQ(set({elastic.one, elastic.other}), set({Entity{2}, Entity{3}}));
   EXPECT_EQ(run_exact(break_of(2, 0)).tally.shared.instants, 0u);
 
   // From both sides at one speed: the outcome is the mean of two that a slight difference chooses between.
@@ -219,8 +217,8 @@ TEST(InstantImpacts, OneByOneTheFirstOfTwoEqualImpactsTakesMore) {
   const Outcome run = run_exact(problem);
   const double first = std::max(run.end.velocity[2].norm(), run.end.velocity[3].norm());
   const double second = std::min(run.end.velocity[2].norm(), run.end.velocity[3].norm());
-  EXPECT_NEAR(first, 5 * std::sqrt(3.0), 1e-13);
-  EXPECT_NEAR(second, 2.5 * std::sqrt(3.0), 1e-13);
+  EXPECT_NEAR(first, 5 * sqrt(3.0), 1e-13);
+  EXPECT_NEAR(second, 2.5 * sqrt(3.0), 1e-13);
   EXPECT_NEAR(run.tally.energy_lost, 0, 1e-13);
 }
 

@@ -2,8 +2,6 @@
 // found here by bisection, and with the method of Runge and Kutta.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/build.h"
@@ -78,7 +76,7 @@ TEST(LinearFlight, BallsOfDifferentMassInTheWindMeetWhereTheirPathsDo) {
   problem.ball({0, 2, 0}, {4, 3, 0.3}, 0.5, 0.2, 0.8);
   problem.ball({3, 2.5, 0.1}, {-3, 2, 0}, 3, 0.3, 0.8);
   const Drag drag{0.9, 0, {1, 0, -2}};
-  problem.world.forces = {{drag}, {UniformForce{{0, 0.5, 0.25}}, 0, std::numeric_limits<double>::infinity(), {1}}};
+  problem.world.forces = {{drag}, {UniformForce{{0, 0.5, 0.25}}, 0, infinity, {1}}};
   problem.options.duration = 2;
   const Outcome got = run(problem);
   ASSERT_EQ(got.collisions.size(), 1u);
@@ -322,12 +320,12 @@ TEST(LinearDrag, MergedBodiesHaveTheDragOfTheirParts) {
   Problem problem;
   problem.ball({0, 0, 0}, {2, 0, 0}, 1, 0.5, 0);
   problem.ball({2, 0, 0}, {0, 0, 0}, 3, 0.5, 0);
-  problem.world.forces = {{Drag{0.5, 0, Vec3::Zero()}, 0, std::numeric_limits<double>::infinity(), {0}}};
+  problem.world.forces = {{Drag{0.5, 0, Vec3::Zero()}, 0, infinity, {0}}};
   problem.options.merge = true;
   problem.options.duration = 2;
   const Outcome got = run(problem);
   ASSERT_EQ(got.collisions.size(), 1u);
-  const double met = -std::log(1 - 0.5 * 1 / 2) / 0.5, speed = 2 * std::exp(-0.5 * met) / 4, k = 0.125;
+  const double met = -log(1 - 0.5 * 1 / 2) / 0.5, speed = 2 * std::exp(-0.5 * met) / 4, k = 0.125;
   EXPECT_NEAR(got.collisions[0].time, met, 1e-14);
   EXPECT_NEAR(got.end.position[1].x(), 1 + 0.75 - speed * std::expm1(-k * (2 - met)) / k, 1e-13);
 }

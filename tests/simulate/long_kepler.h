@@ -1,8 +1,8 @@
 #pragma once
 // Kepler's motion in 64-bit mantissas by his own equation: the reference of orbits.
-#include <cmath>
 
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -21,11 +21,11 @@ class LongKepler {
     e_ = e.norm();
     ahead_ = e_ > 0 ? Real3(e / e_) : Real3(r / r.norm());
     aside_ = h.cross(ahead_) / h.norm();
-    short_ = h.norm() / std::sqrt(std::abs(2 * energy));
-    rate_ = std::sqrt(mu_ / std::abs(a_ * a_ * a_));
+    short_ = h.norm() / sqrt(std::abs(2 * energy));
+    rate_ = sqrt(mu_ / std::abs(a_ * a_ * a_));
 
     // Where it is at the start.
-    const Real s = r.dot(u) / std::sqrt(mu_ * std::abs(a_));  // e sin E, or e sinh H
+    const Real s = r.dot(u) / sqrt(mu_ * std::abs(a_));  // e sin E, or e sinh H
     if (a_ > 0) {
       const Real anomaly = std::atan2(r.dot(aside_) / short_, r.dot(ahead_) / a_ + e_);
       phase_ = anomaly - e_ * std::sin(anomaly);

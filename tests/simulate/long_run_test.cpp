@@ -1,8 +1,6 @@
 // Long runs lose nothing but rounding.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"

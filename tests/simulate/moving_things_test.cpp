@@ -1,8 +1,6 @@
 // Fixed things that move: closed forms of impacts and of bodies that they carry, and the work that they do.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "std.h"
@@ -10,10 +8,10 @@
 namespace carom {
 namespace {
 
-constexpr double forever = std::numeric_limits<double>::infinity();
+constexpr double forever = infinity;
 
 void expect_balanced(const Problem& problem, const Outcome& run, double scale, const string& what = "") {
-  const double rounding = 2e-14 * (1 + std::sqrt(static_cast<double>(run.collisions.size())));
+  const double rounding = 2e-14 * (1 + sqrt(static_cast<double>(run.collisions.size())));
   EXPECT_NEAR(residual(problem, run), 0, rounding * scale) << what;
   EXPECT_NEAR(unbooked(problem, run), 0, rounding * scale) << what;
 }
@@ -54,7 +52,7 @@ TEST(MovingThings, ABallBetweenAWallAtRestAndOneThatClosesInHasTheSpeedsOfTheClo
     }
 
     EXPECT_NEAR(std::abs(run.end.velocity[0].x()), speeds.back(), 1e-13 * speeds.back());
-    expect_balanced(problem, run, speeds.back() * speeds.back(), std::to_string(u));
+    expect_balanced(problem, run, speeds.back() * speeds.back(), to_string(u));
     EXPECT_NEAR(run.tally.work, speeds.back() * speeds.back() - v0 * v0, 1e-12 * speeds.back() * speeds.back());
   }
 }
@@ -85,7 +83,7 @@ TEST(MovingThings, ABatDrivesABallByTheSpeedOfTheirApproach) {
 
     EXPECT_NEAR(run.end.velocity[0].x(), 20 + e * 60, 1e-13) << kind;
     EXPECT_NEAR(run.tally.work, mass * 90 * 20, 1e-11) << kind;
-    expect_balanced(problem, run, 1e3, std::to_string(kind));
+    expect_balanced(problem, run, 1e3, to_string(kind));
   }
 }
 
@@ -115,7 +113,7 @@ TEST(MovingThings, ATableCarriesABallUpAndThrowsItWhereItStops) {
     EXPECT_NEAR(run.end.position[0].y(), 0.5 + 2 * u, 1e-15);
     EXPECT_EQ(run.end.velocity[0].y(), 0);
     // The start: m u^2 (1 + e) and the hops' losses; lasting contact: the weight, and what hops have left.
-    expect_balanced(problem, run, mass * g_n, std::to_string(e));
+    expect_balanced(problem, run, mass * g_n, to_string(e));
     EXPECT_NEAR(run.tally.work, mass * g_n * 2 * u + 0.5 * mass * u * u + 0.5 * mass * u * u, 1e-13 * mass * g_n);
   }
 }
@@ -146,14 +144,14 @@ TEST(MovingThings, APaddleInWindowsChangesEachHop) {
   // It meets the ball at 1 s at its own speed of 1 m/s, then stands 0.125 m higher.
   problem.move(1, {{0.9375, 1.0625, {0, 1, 0}}, {3, 3.5, {0, -0.5, 0}}});
   // The ball falls from 5 m. The plane is at t - 0.9375 then: 5 - 5 t^2 = t - 0.9375.
-  const double t1 = (-1 + std::sqrt(1 + 4 * 5 * 5.9375)) / 10, v1 = 10 * t1 + 2;
+  const double t1 = (-1 + sqrt(1 + 4 * 5 * 5.9375)) / 10, v1 = 10 * t1 + 2;
   const double y1 = t1 - 0.9375;
   // y1 + v1 s - 5 s^2 = 0.125 (the plane stands at 0.125 until 3 s, then goes down at 0.5 m/s to -0.125).
-  const double s = (v1 + std::sqrt(v1 * v1 + 20 * (y1 - 0.125))) / 10, t2 = t1 + s;
+  const double s = (v1 + sqrt(v1 * v1 + 20 * (y1 - 0.125))) / 10, t2 = t1 + s;
   ASSERT_GT(t2, 3);
   // y1 + v1 s - 5 s^2 = 0.125 - 0.5 (t1 + s - 3)
   const double b = v1 + 0.5, c = y1 - 0.125 + 0.5 * (t1 - 3);
-  const double s2 = (b + std::sqrt(b * b + 20 * c)) / 10;
+  const double s2 = (b + sqrt(b * b + 20 * c)) / 10;
   const Outcome run = run_exact(problem);
   ASSERT_GE(run.collisions.size(), 2u);
   EXPECT_NEAR(run.collisions[0].time, t1, 1e-15);
@@ -228,7 +226,7 @@ TEST(MovingThings, ASleepingPileWakesWhereItsFloorStarts) {
   problem.options.duration = 3;
 
   for (int k = 0; k < 2; ++k) problem.ball({1.0 * k, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0);
-  problem.ball({0.5, 0.5 + std::sqrt(0.75), 0}, {0, 0, 0}, 1, 0.5, 0);
+  problem.ball({0.5, 0.5 + sqrt(0.75), 0}, {0, 0, 0}, 1, 0.5, 0);
   problem.obstacle({0.5, -0.5, 0}, Volume::box({2, 1, 2}));
   problem.wall({-0.5, 0.5, 0}, {1, 0, 0}, 2, 2);
   problem.wall({1.5, 0.5, 0}, {-1, 0, 0}, 2, 2);

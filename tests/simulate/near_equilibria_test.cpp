@@ -3,12 +3,10 @@
 // the whole motion.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <utility>
-
 #include "geometry/contact_time.h"
 #include "physics/force_law.h"
 #include "simulate/ties.h"
+#include "std.h"
 
 namespace carom {
 namespace {
@@ -32,7 +30,7 @@ double time_from_the_top(double q0, double q, double rate, const Inertia& inerti
   const double s0 = std::sin(q0 / 2);
   const auto integrand = [&](double u) {
     const double s = s0 * std::cosh(u);
-    return std::sqrt(inertia(2 * std::asin(s))) / (rate * std::sqrt(1 - s * s));
+    return sqrt(inertia(2 * std::asin(s))) / (rate * sqrt(1 - s * s));
   };
   return simpson(integrand, std::acosh(std::sin(q / 2) / s0));
 }
@@ -45,14 +43,14 @@ double as_one(double) {
 Problem beside_the_top(double d, double r, double distance) {
   Problem problem;
   problem.world.gravity = Vec3(0, -pull, 0);
-  problem.ball({d, std::sqrt(distance * distance - d * d), 0}, {0, 0, 0}, 1, r, 0);
+  problem.ball({d, sqrt(distance * distance - d * d), 0}, {0, 0, 0}, 1, r, 0);
   return problem;
 }
 
 /// By how much a ball that slides down from the top is early, as a share of the time.
 double early(const Problem& problem, double distance, double share_of_time) {
   const Vec3 first = problem.initial.position[0];
-  const double q0 = std::atan2(first.x(), first.y()), rate = std::sqrt(pull / distance);
+  const double q0 = std::atan2(first.x(), first.y()), rate = sqrt(pull / distance);
   // It leaves at cos q = 2/3 cos q0, later than this.
   const double there = share_of_time * time_from_the_top(q0, 0.8, rate, as_one);
   Problem shorter = problem;
@@ -110,7 +108,7 @@ TEST(NearEquilibria, AHeavyBallCreepsFromTheTopThroughATreacle) {
   problem.obstacle({0, 0, 0}, Volume::sphere(0.75));
   problem.world.forces.push_back({Drag{k, 0, Vec3::Zero()}});
   problem.options.duration = time;
-  const double fast = -0.5 * (k + std::sqrt(k * k + 4 * pull)), slow = -pull / fast;
+  const double fast = -0.5 * (k + sqrt(k * k + 4 * pull)), slow = -pull / fast;
   const double expected = d * (fast * std::exp(slow * time) - slow * std::exp(fast * time)) / (fast - slow);
   EXPECT_NEAR(run_exact(problem).end.position[0].x() / expected, 1, 3e-9);  // measured: 1.2e-9
 }
@@ -132,8 +130,7 @@ Problem ladder(double q0, double upper, double lower) {
 
 TEST(NearEquilibria, ALadderSlidesDownInTime) {
   // th'^2 (m1 sin^2 + m2 cos^2) = 2 m1 (g / L) (cos q0 - cos th).
-  for (const auto& [upper, lower] :
-       {std::pair(1.0, 1.0), std::pair(1e6, 1.0), std::pair(1e8, 1.0), std::pair(1.0, 1e3)})
+  for (const auto& [upper, lower] : {pair(1.0, 1.0), pair(1e6, 1.0), pair(1e8, 1.0), pair(1.0, 1e3)})
     for (const double q0 : {1e-5, 1e-6, 1e-7}) {
       Problem problem = ladder(q0, upper, lower);
       const auto inertia = [m1 = upper, m2 = lower](double q) {
@@ -141,12 +138,12 @@ TEST(NearEquilibria, ALadderSlidesDownInTime) {
       };
       const double first = problem.initial.position[1].x() - 0.1;
       // Later a light end is pulled along, and the heavy one off the wall.
-      const double last = 0.3 * std::sqrt(std::sqrt(std::min(lower / upper, 1.0)));
-      const double whole = time_from_the_top(std::asin(first), last, std::sqrt(pull), inertia);
+      const double last = 0.3 * sqrt(sqrt(std::min(lower / upper, 1.0)));
+      const double whole = time_from_the_top(std::asin(first), last, sqrt(pull), inertia);
       problem.options.duration = whole;
       const State end = run_exact(problem).end;
       const double q = std::atan2(end.position[1].x() - 0.1, end.position[0].y() - 0.1);
-      const double there = time_from_the_top(std::asin(first), q, std::sqrt(pull), inertia);
+      const double there = time_from_the_top(std::asin(first), q, sqrt(pull), inertia);
       EXPECT_LT(std::abs(there / whole - 1), 1e-10 + 2e-16 / q0) << upper << " " << lower << " " << q0;
     }
 }

@@ -1,9 +1,6 @@
 // The lists of neighbours against all pairs, and the next body against a search.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <set>
-
 #include "numerics/tournament.h"
 #include "physics/world.h"
 #include "simulate/random.h"
@@ -43,7 +40,7 @@ TEST(NearOnADiagonal, HasAllThatMayTouch) {
     for (Entity i = 1; i + 1 < bodies; ++i) {
       const span<const Entity> list = neighbours.bodies(i);
       EXPECT_LT(list.size(), 50u);
-      for (const Entity j : {i - 1, i + 1}) EXPECT_EQ(std::ranges::count(list, j), 1);
+      for (const Entity j : {i - 1, i + 1}) EXPECT_EQ(ranges::count(list, j), 1);
       neighbours.renew(i, x[i], Vec3::Zero());
     }
 }
@@ -71,7 +68,7 @@ TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
       for (Entity j = 0; j < bodies; ++j) {
         if (j == i) continue;
         const double gap = (x[j] - x[i]).norm() - world.radius[i] - world.radius[j];
-        const auto times = std::ranges::count(list, j);
+        const auto times = ranges::count(list, j);
         EXPECT_LE(times, gap > 12 * reach + 2 ? 0 : 1) << reach;
         EXPECT_GE(times, gap <= 2 * reach ? 1 : 0) << reach;
       }
@@ -90,7 +87,7 @@ TEST_P(Near, HasAllThatMayTouch) {
 
   for (Entity i = 0; i < bodies; ++i) {
     world.mass.push_back(1);
-    world.radius.push_back(how.scale * 0.1 * std::pow(how.radii, random(0, 1)));
+    world.radius.push_back(how.scale * 0.1 * pow(how.radii, random(0, 1)));
     world.restitution.push_back(1);
     x.push_back(how.scale * (how.from + in_cube(random, how.half)));
   }
@@ -113,11 +110,10 @@ TEST_P(Near, HasAllThatMayTouch) {
       ++renewed;
       // Those it did not know are told.
       const span<const Entity> before = neighbours.bodies(i);
-      const std::set<Entity> known(before.begin(), before.end());
+      const set<Entity> known(before.begin(), before.end());
       const span<const Entity> came = neighbours.renew(i, x[i], how.scale * in_cube(random, 1));
       for (const Entity j : came) EXPECT_FALSE(known.contains(j));
-      for (const Entity j : neighbours.bodies(i))
-        EXPECT_TRUE(known.contains(j) || std::ranges::find(came, j) != came.end());
+      for (const Entity j : neighbours.bodies(i)) EXPECT_TRUE(known.contains(j) || contains(came, j));
       EXPECT_LE((x[i] - neighbours.center(i)).norm(), neighbours.room(i));
       if (random(0, 1) < 0.05) neighbours.shrink(i, x[i]);
     }
@@ -126,7 +122,7 @@ TEST_P(Near, HasAllThatMayTouch) {
     // No two may touch that are not on each other's lists.
     for (Entity i = 0; i < bodies; ++i) {
       const span<const Entity> list = neighbours.bodies(i);
-      const std::set<Entity> known(list.begin(), list.end());
+      const set<Entity> known(list.begin(), list.end());
       EXPECT_EQ(known.size(), list.size());
       for (Entity j = 0; j < bodies; ++j) {
         const double apart = (neighbours.center(i) - neighbours.center(j)).norm();
@@ -144,7 +140,7 @@ TEST_P(Near, HasAllThatMayTouch) {
         const Plane& plane = world.planes[k];
         const double gap = (neighbours.center(i) - plane.point).dot(plane.normal) - world.radius[i];
         if (gap <= neighbours.room(i)) {
-          EXPECT_TRUE(std::ranges::find(surfaces, bodies + k) != surfaces.end());
+          EXPECT_TRUE(contains(surfaces, bodies + k));
         }
       }
     }
@@ -170,7 +166,7 @@ TEST(Tournament, FindsTheFirstOfManyAndOfEqualTimesTheOneBefore) {
   Random random;
 
   for (const uint32_t entries : {1u, 7u, 8u, 9u, 64u, 65u, 700u}) {
-    vector<double> time(entries, std::numeric_limits<double>::infinity());
+    vector<double> time(entries, infinity);
     vector<int> rank(entries);
     for (int& r : rank) r = static_cast<int>(random(0, 5));
     Tournament<First> queue(entries, First{&rank});
@@ -179,7 +175,7 @@ TEST(Tournament, FindsTheFirstOfManyAndOfEqualTimesTheOneBefore) {
     for (int step = 0; step < 3000; ++step) {
       const auto i = static_cast<uint32_t>(random(0, entries));
       rank[i] = static_cast<int>(random(0, 1000)) * 1000 + static_cast<int>(i);  // no two alike
-      time[i] = random(0, 1) < 0.2 ? std::numeric_limits<double>::infinity() : std::floor(random(0, 9));
+      time[i] = random(0, 1) < 0.2 ? infinity : floor(random(0, 9));
       queue.update(i, time[i]);
 
       uint32_t first = 0;
@@ -187,7 +183,7 @@ TEST(Tournament, FindsTheFirstOfManyAndOfEqualTimesTheOneBefore) {
         if (time[k] < time[first] || (time[k] == time[first] && rank[k] < rank[first])) first = k;
 
       EXPECT_EQ(queue.first_time(), time[first]);
-      if (time[first] < std::numeric_limits<double>::infinity()) {
+      if (time[first] < infinity) {
         ASSERT_EQ(queue.first(), first);
       }
     }

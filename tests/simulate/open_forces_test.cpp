@@ -1,9 +1,6 @@
 // Forces at rest that statics leaves open: those of equally stiff contacts, under any names.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <numeric>
 #include <random>
 
@@ -14,7 +11,7 @@ namespace carom {
 namespace {
 
 /// N, by the numbers that the two things have in `order`: body k of the problem is number order[k] there.
-using Forces = std::map<std::pair<Entity, Entity>, double>;
+using Forces = map<pair<Entity, Entity>, double>;
 
 Forces forces_of(const Problem& problem, const vector<Entity>& order) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -22,7 +19,7 @@ Forces forces_of(const Problem& problem, const vector<Entity>& order) {
   const auto name = [&](Entity e) { return problem.world.is_body(e) ? order[e] : e; };
   Forces forces;
   for (const ContactForce& c : simulator->contacts()) {
-    const std::pair<Entity, Entity> names = std::minmax(name(c.a), name(c.b));
+    const pair<Entity, Entity> names = std::minmax(name(c.a), name(c.b));
     forces[names] += c.force;
   }
   return forces;

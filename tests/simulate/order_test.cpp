@@ -1,8 +1,6 @@
 // How fast errors fall as steps get shorter: impacts inside steps keep the order of each method.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/exact.h"
@@ -43,7 +41,7 @@ double error(const Problem& problem, Integrator method, double steps, const Know
   for (int k = 0; k < numbers; ++k) {
     const double n = std::round((1 + 0.017 * k) * steps);
     const KnownEnd got = run(problem, method, problem.options.duration / n);
-    sum += std::log((got.x - known_end.x).norm() + (got.v - known_end.v).norm());
+    sum += log((got.x - known_end.x).norm() + (got.v - known_end.v).norm());
   }
   return std::exp(sum / numbers);
 }
@@ -52,7 +50,7 @@ double error(const Problem& problem, Integrator method, double steps, const Know
 double fitted_order(const Problem& problem, Integrator method, const vector<double>& steps, const KnownEnd& known_end) {
   double sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (const double n : steps) {
-    const double x = -std::log(n), y = std::log(error(problem, method, n, known_end));
+    const double x = -log(n), y = log(error(problem, method, n, known_end));
     sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const auto count = static_cast<double>(steps.size());
@@ -68,7 +66,7 @@ void expect_orders(const Problem& problem, const KnownEnd& known_end, double fir
     if (m > 0) {
       EXPECT_LT(order, orders[m] + 0.15) << names[m];
     }
-    ::testing::Test::RecordProperty(names[m], std::to_string(order));
+    ::testing::Test::RecordProperty(names[m], to_string(order));
   }
 }
 
@@ -85,7 +83,7 @@ KnownEnd impact_oscillator(double w, double wall, double e, double x, double tim
 
     const double speed = e * amplitude * w * std::sin(down);
     t = until;
-    amplitude = std::sqrt(wall * wall + speed / w * speed / w);
+    amplitude = sqrt(wall * wall + speed / w * speed / w);
     phase = -std::acos(wall / amplitude);
   }
 }

@@ -1,9 +1,6 @@
 // Pendulums against closed forms: swings, impacts on bobs, many among each other.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/polynomial.h"
 #include "simulate/ties.h"
 #include "slow_with_sanitizers.h"
@@ -45,12 +42,12 @@ TEST(Strings, ALargeSwingGoesSlackAndTautAgainAtTheClosedForms) {
 
   Tied problem;
   const double length = 0.8, v2 = 3.5 * g_n * length;
-  const Entity bob = problem.ball({0, -length, 0}, {std::sqrt(v2), 0, 0}, 2, 0.05);
+  const Entity bob = problem.ball({0, -length, 0}, {sqrt(v2), 0, 0}, 2, 0.05);
   problem.anchored(bob, {0, 0, 0}, length);
   problem.options.duration = 2;
 
-  const double sine = (v2 - 2 * g_n * length) / (3 * g_n * length), cosine = std::sqrt(1 - sine * sine);
-  const double w = std::sqrt(g_n * length * sine), flight = 4 * w * cosine / g_n;
+  const double sine = (v2 - 2 * g_n * length) / (3 * g_n * length), cosine = sqrt(1 - sine * sine);
+  const double w = sqrt(g_n * length * sine), flight = 4 * w * cosine / g_n;
   const Vec3 slack = length * Vec3(cosine, sine, 0), u = w * Vec3(-sine, cosine, 0);
   const Vec3 again = slack + flight * u + Vec3(0, -0.5 * g_n * flight * flight, 0);
   EXPECT_NEAR(again.norm(), length, 1e-15);
@@ -69,7 +66,7 @@ TEST(Strings, ALargeSwingGoesSlackAndTautAgainAtTheClosedForms) {
   const int n = 4000;
   for (int k = 0; k <= n; ++k) {
     const double a = angle * k / n, speed2 = v2 - 2 * g_n * length * (1 - std::cos(a));
-    swing += (k == 0 || k == n ? 1 : k % 2 == 1 ? 4 : 2) * length / std::sqrt(speed2);
+    swing += (k == 0 || k == n ? 1 : k % 2 == 1 ? 4 : 2) * length / sqrt(speed2);
   }
   swing *= angle / n / 3;
   EXPECT_NEAR(taut.time, swing + flight, 1e-12);
@@ -253,7 +250,7 @@ TEST(Strings, HoldFromAStateOfAnotherRun) {
 TEST(Start, OfASlideOverAGlobeHolds) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
-  problem.ball({0.01, std::sqrt(1.1 * 1.1 - 1e-4), 0}, {0, 0, 0}, 1, 0.1, 1);
+  problem.ball({0.01, sqrt(1.1 * 1.1 - 1e-4), 0}, {0, 0, 0}, 1, 0.1, 1);
   problem.obstacle({0, 0, 0}, Volume::sphere(1));
 
   problem.options.duration = 1;

@@ -3,8 +3,6 @@
 // - 1. (Galperin, Regul. Chaotic Dyn. 8 (2003) 375.)
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "simulate/build.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"
@@ -26,7 +24,7 @@ TEST(PiBilliard, CollisionsCountTheDigitsOfPi) {
   SLOW_WITH_SANITIZERS();
   const uint64_t digits[] = {3, 31, 314, 3141, 31415, 314159, 3141592};
   for (int k = 0; k < 7; ++k)
-    EXPECT_EQ(heavy_against_wall(std::pow(100.0, k), 1e6).collisions(), digits[k]) << "mass ratio 100^" << k;
+    EXPECT_EQ(heavy_against_wall(pow(100.0, k), 1e6).collisions(), digits[k]) << "mass ratio 100^" << k;
 }
 
 // Where pi / theta is a whole number the last wedge's side is parallel to the line: no collision. By Niven's theorem

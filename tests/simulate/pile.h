@@ -2,8 +2,6 @@
 // Balls of 1 m and 1 kg, thrown a little out of a wide lattice above the floor of a box, e = 0.5: a pile.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "simulate/build.h"
 #include "std.h"
 
@@ -75,7 +73,7 @@ inline void expect_pile_at_rest(const Problem& problem, Simulator& simulator, co
     const State& state = simulator.state();
     const vector<uint8_t> glides = gliding(world, simulator);
     EXPECT_LE(energy_of_pile(world, simulator), still) << t;
-    EXPECT_LE(std::ranges::count(glides, 1), gliders + static_cast<int>(n) / 100) << t;
+    EXPECT_LE(ranges::count(glides, 1), gliders + static_cast<int>(n) / 100) << t;
     if (first.empty()) first = state.position;
     // A body stopped by linear drag is at the end of its path, to rounding.
     for (Entity a = 0; a < n; ++a) {

@@ -1,6 +1,5 @@
 #pragma once
 // Runs with regions, for tests.
-#include <algorithm>
 
 #include "simulate/build.h"
 #include "simulate/random.h"

@@ -1,9 +1,6 @@
 // Crossings of regions along paths of every kind, and their times.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <numbers>
 
 #include "physics/attractor.h"
@@ -23,7 +20,7 @@ TEST(Regions, AreEnteredAndLeftAtTheTimesOfTheClosedForm) {
   const WithRegions run = run_with(problem);
   ASSERT_EQ(run.crossings.size(), 4u);
 
-  const double root = std::sqrt(144 - 10 * g_n);
+  const double root = sqrt(144 - 10 * g_n);
   const double up = 10 / (12 + root), down = (12 + root) / g_n;
 
   EXPECT_EQ(run.crossings[0].region, 0u);
@@ -46,11 +43,11 @@ TEST(Regions, SeeABallThatBouncesInside) {
   const WithRegions run = run_with(problem);
   ASSERT_EQ(run.crossings.size(), 10u);
 
-  const double fall = std::sqrt(0.75);
+  const double fall = sqrt(0.75);
   for (size_t k = 0; k < 10; ++k) {
     EXPECT_EQ(run.crossings[k].region, 0u) << "at its lowest point it touches the other one";
     EXPECT_EQ(run.crossings[k].enters, k % 2 == 0);
-    const double bounce = 1 + 2 * std::floor(static_cast<double>(k) / 2);
+    const double bounce = 1 + 2 * floor(static_cast<double>(k) / 2);
     const double expected = k % 2 == 0 ? bounce - 1 + fall : bounce + 1 - fall;
     EXPECT_NEAR(run.crossings[k].time, expected, 1e-14 * expected);
   }
@@ -84,14 +81,14 @@ TEST(Regions, AreLeftOnAKeplerOrbitAtTheTimesOfKeplersEquation) {
   // Semi-major axis 1, eccentricity 0.6, from the pericentre. Beyond x = 0 the eccentric anomaly has cos E = e.
   Problem problem;
   const double e = 0.6, pi = std::numbers::pi;
-  problem.ball({1 - e, 0, 0}, {0, std::sqrt((1 + e) / (1 - e)), 0}, 1, 0.01);
+  problem.ball({1 - e, 0, 0}, {0, sqrt((1 + e) / (1 - e)), 0}, 1, 0.01);
   problem.world.forces.push_back({Attractor{Vec3::Zero(), 1, 0}});
   problem.world.regions = {side_at({0, 0, 0}, {-1, 0, 0}), region_at({0, 0, 0}, Volume::sphere(1))};
   problem.options.duration = 4 * pi;
   const WithRegions run = run_with(problem);
   // r = 1 - e cos E is 1 at E = pi/2.
   const double half = std::acos(e) - e * std::sin(std::acos(e)), middle = pi / 2 - e;
-  std::map<uint32_t, vector<double>> times;
+  map<uint32_t, vector<double>> times;
   for (const RegionCrossing& crossing : run.crossings) times[crossing.region].push_back(crossing.time);
   ASSERT_EQ(times[0].size(), 4u);
   ASSERT_EQ(times[1].size(), 5u);
@@ -125,8 +122,8 @@ TEST(Regions, AreCrossedUnderDragAtTheTimesOfTheClosedForm) {
   ASSERT_EQ(run.crossings.size(), 3u);
   const double ln2 = std::numbers::ln2;
   EXPECT_NEAR(run.crossings[0].time, 2 * ln2, 1e-14);
-  EXPECT_NEAR(run.crossings[1].time, -2 * std::log(1.5 / 16), 1e-14 * 5);
-  EXPECT_NEAR(run.crossings[2].time, -2 * std::log(0.5 / 16), 1e-14 * 7);
+  EXPECT_NEAR(run.crossings[1].time, -2 * log(1.5 / 16), 1e-14 * 5);
+  EXPECT_NEAR(run.crossings[2].time, -2 * log(0.5 / 16), 1e-14 * 7);
 }
 
 TEST(Regions, AreEnteredByABallThatSlidesOffAGlobe) {
@@ -146,9 +143,9 @@ TEST(Regions, AreEnteredByABallThatSlidesOffAGlobe) {
   double time = 0;
   constexpr int parts = 2000;
   for (int i = 0; i < parts; ++i)
-    for (const double node : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {
+    for (const double node : {0.5 - sqrt(1.0 / 12), 0.5 + sqrt(1.0 / 12)}) {
       const double sine = std::sin(a / 2) * std::cosh(s * (i + node) / parts);
-      time += 0.5 * s / parts / std::sqrt(1 - sine * sine);
+      time += 0.5 * s / parts / sqrt(1 - sine * sine);
     }
   EXPECT_NEAR(run.crossings[0].time, time, 1e-11);  // measured: 3e-13
 }
@@ -157,12 +154,12 @@ TEST(Regions, CountAsDenseSamplesOfTheFlightsDo) {
   const Problem problem = gas_among_regions(20);
   const WithRegions run = run_with(problem);
 
-  std::map<std::pair<uint32_t, Entity>, int> count, sampled;
+  map<pair<uint32_t, Entity>, int> count, sampled;
   for (const RegionCrossing& crossing : run.crossings) ++count[{crossing.region, crossing.body}];
 
   // By samples.
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
-  std::map<std::pair<uint32_t, Entity>, bool> inside;
+  map<pair<uint32_t, Entity>, bool> inside;
   for (int i = 0; i <= 40000; ++i) {
     go_to(*simulator, 4e-4 * i / 4);
     const State& state = simulator->state();
@@ -196,7 +193,7 @@ TEST(Regions, TakeTurnsInOrderOfTimeAndChangeNothing) {
   for (size_t k = 0; k < run.all.size(); ++k) EXPECT_EQ(run.all[k].time, plain.all[k].time);
 
   // Each body goes in and out by turns.
-  std::map<std::pair<uint32_t, Entity>, bool> inside;
+  map<pair<uint32_t, Entity>, bool> inside;
   for (size_t k = 0; k < run.crossings.size(); ++k) {
     const RegionCrossing& crossing = run.crossings[k];
     bool& now = inside[{crossing.region, crossing.body}];

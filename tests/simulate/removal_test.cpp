@@ -1,7 +1,6 @@
 // Regions that remove the bodies which enter them: books, and what becomes of the others.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "simulate/regions.h"
@@ -88,9 +87,9 @@ TEST(Removal, OfTheLowestBallLetsThePileFall) {
   // The lowest is inside at time 0. The next one falls by 1 - 0.1 m to the region's top, and so does the last one.
   ASSERT_EQ(run.crossings.size(), 3u);
   EXPECT_EQ(run.crossings[0], (RegionCrossing{0, 0, 0, true}));
-  EXPECT_NEAR(run.crossings[1].time, std::sqrt(0.9 * 2 / 10), 1e-13);
+  EXPECT_NEAR(run.crossings[1].time, sqrt(0.9 * 2 / 10), 1e-13);
   // 0.1 m above the ball that it rested on, it falls as that one did.
-  EXPECT_NEAR(run.crossings[2].time, std::sqrt(1.9 * 2 / 10), 1e-13);
+  EXPECT_NEAR(run.crossings[2].time, sqrt(1.9 * 2 / 10), 1e-13);
   EXPECT_EQ(run.tally.removed.bodies, 3u);
   EXPECT_LT(std::abs(left(problem, run)), 1e-12);
   EXPECT_EQ(run.tally.resting, 0u);
@@ -107,7 +106,7 @@ TEST(Removal, OfASleepersSupportWakesTheSleeper) {
   problem.ball({-0.51, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0);
   problem.ball({0.51, 0.5, 0}, {0, 0, 0}, 1, 0.5, 0);
 
-  const double height = 0.5 + std::sqrt(1 - 0.51 * 0.51);
+  const double height = 0.5 + sqrt(1 - 0.51 * 0.51);
   problem.ball({0, height, 0}, {0, 0, 0}, 1, 0.5, 0);
   problem.ball({0, 30, 0}, {0, 0, 0}, 1, 0.5, 0);
 
@@ -198,9 +197,7 @@ TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
   Problem problem;
   problem.room({-1, -1, -1}, {1, 1, 1});
   Random random;
-  const auto normal = [&] {
-    return std::sqrt(-2 * std::log(random(1e-12, 1))) * std::cos(2 * std::numbers::pi * random(0, 1));
-  };
+  const auto normal = [&] { return sqrt(-2 * log(random(1e-12, 1))) * std::cos(2 * std::numbers::pi * random(0, 1)); };
 
   const int n = 20000;
   for (int i = 0; i < n; ++i) {
@@ -213,8 +210,8 @@ TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
   problem.options.duration = 0.2;
   const WithRegions run = run_with(problem);
 
-  const double mean = std::sqrt(8 / std::numbers::pi), expected = n * mean * 0.64 / (4 * 8) * 0.2;
-  EXPECT_NEAR(static_cast<double>(run.tally.removed.bodies), expected, 4 * std::sqrt(expected));  // 128 +- 45
+  const double mean = sqrt(8 / std::numbers::pi), expected = n * mean * 0.64 / (4 * 8) * 0.2;
+  EXPECT_NEAR(static_cast<double>(run.tally.removed.bodies), expected, 4 * sqrt(expected));  // 128 +- 45
 }
 
 }  // namespace

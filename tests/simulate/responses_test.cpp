@@ -1,8 +1,6 @@
 // Impacts: e = 0, e > 1, merging bodies.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "simulate/random.h"

@@ -1,9 +1,6 @@
 // Rest: a body at rest presses by the laws of statics, stays in place, and wakes when it is struck.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-
 #include "geometry/contact_time.h"
 #include "physics/force_law.h"
 #include "physics/world.h"
@@ -109,7 +106,7 @@ Problem pyramid() {
 }
 
 TEST(Rest, APyramidOfFourPressesOnFloorAndWalls) {
-  const double f = 3 * g_n / 3 / 0.8, wall = f * 0.6 / std::sqrt(2.0), floor = g_n + g_n;
+  const double f = 3 * g_n / 3 / 0.8, wall = f * 0.6 / sqrt(2.0), floor = g_n + g_n;
   vector<Press> forces;
   for (Entity k = 0; k < 3; ++k) {
     forces.push_back({k, 3, f});
@@ -124,7 +121,7 @@ TEST(Rest, ASmallBodyBouncesOnALargeOneInContactAsByItself) {
   for (const double r : {2e-5, 1e-3}) {
     Problem problem;
     problem.world.gravity = Vec3(0, -g_n, 0);
-    problem.options.duration = 0.9 * std::sqrt(2 * 30 * r / g_n) * 2;
+    problem.options.duration = 0.9 * sqrt(2 * 30 * r / g_n) * 2;
     problem.plane({0, 0, 0}, {0, 1, 0});
     problem.body(Volume::box({2, 1, 2}), {0, 0.5, 0}, {0, 0, 0}, 1000, 0);
     problem.ball({0.5, 1 + r, 0}, {0, 0, 0}, 1e-3, r, 0);
@@ -135,7 +132,7 @@ TEST(Rest, ASmallBodyBouncesOnALargeOneInContactAsByItself) {
     ASSERT_FALSE(run.collisions.empty()) << r;
 
     const Collision& first = run.collisions.front();
-    EXPECT_NEAR(first.approach_speed, std::sqrt(2 * g_n * 30 * r), 1e-9) << r;
+    EXPECT_NEAR(first.approach_speed, sqrt(2 * g_n * 30 * r), 1e-9) << r;
     EXPECT_NEAR(first.separation_speed, 0.5 * first.approach_speed, 1e-9) << r;
   }
 }
@@ -194,7 +191,7 @@ TEST(Rest, AColumnThrowsBackABallThatFallsOnIt) {
     problem.plane({0, 0, 0}, {0, 1, 0});
     for (int i = 0; i < n; ++i) problem.ball({0, 0.125 + 0.25 * i, 0}, Vec3::Zero(), 1, 0.125, 1);
     problem.ball({0, 0.125 + 0.25 * n + 0.5, 0}, Vec3::Zero(), 1, 0.125, 1);
-    const double fall = std::sqrt(2 * 0.5 / g_n);
+    const double fall = sqrt(2 * 0.5 / g_n);
     problem.options.duration = 1.5 * fall;
     const Outcome run = run_exact(problem);
     EXPECT_NEAR(run.end.velocity.back().y(), 0.5 * g_n * fall, 1e-6) << n;
@@ -223,8 +220,7 @@ void expect_wakes(Problem problem, Entity target, const Vec3& from, const Vec3& 
   const Vec3 x = problem.initial.position[target];
   const Entity n = problem.world.body_count();
   problem.world.restitution[target] = 1;
-  problem.world.forces.push_back(
-      {UniformAcceleration{-problem.world.gravity}, 0, std::numeric_limits<double>::infinity(), {n}});
+  problem.world.forces.push_back({UniformAcceleration{-problem.world.gravity}, 0, infinity, {n}});
   problem.ball(from - v, v, 1, 0.125, 1);
   problem.options.duration = 3;
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
@@ -285,8 +281,8 @@ TEST(Rest, AStruckBodyWakes) {
   groove.world.gravity = Vec3(0, -g_n, 0);
   groove.plane({0, 0, 0}, {1, 1, 0});
   groove.plane({0, 0, 0}, {-1, 1, 0});
-  groove.ball({0, 0.25 * std::sqrt(2.0), 0}, {0, 0, 0}, 1, 0.25, 0);
-  expect_wakes(groove, 0, {0, 0.25 * std::sqrt(2.0), -0.375}, {0, 0, 2}, "groove");
+  groove.ball({0, 0.25 * sqrt(2.0), 0}, {0, 0, 0}, 1, 0.25, 0);
+  expect_wakes(groove, 0, {0, 0.25 * sqrt(2.0), -0.375}, {0, 0, 2}, "groove");
   expect_wakes(pyramid(), 3, {0, 1.3, -0.625}, {0, 0, 2}, "pyramid");
 
   Problem boxes;

@@ -1,10 +1,6 @@
 // Rods: what they push and transmit, impulses along them, and where they jam.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "physics/force_law.h"
 #include "simulate/ties.h"
 #include "std.h"
@@ -152,7 +148,7 @@ TEST(Rods, ThatJamBodiesEndTheRun) {
       problem.body(Volume::cylinder(0.5, 1), {far + 0.75, 0, 0}, {0, 0, 0});
       problem.between(0, 1, 0.75).rod = true;
       const Spring spring{{far + 3, 4, 1}, strength, 0, 0};
-      problem.world.forces.push_back({spring, 0, std::numeric_limits<double>::infinity(), {0}});
+      problem.world.forces.push_back({spring, 0, infinity, {0}});
       EXPECT_NE(error_of(problem).find("jammed"), string::npos) << strength << ' ' << far << error_of(problem);
     }
 }
@@ -183,15 +179,15 @@ TEST(Rods, BetweenTouchingBallsAreNotJammed) {
     problem.world.gravity = Vec3(0, -9.81, 0);
     problem.ball({far, 0, 0}, {0, 0, 0}, 1, 0.5);
     problem.ball({far + 1, 0, 0}, {0, 0, 0}, 2, 0.5);
-    problem.ball({far + 0.5, std::sqrt(0.75), 0}, {0, 0, 1}, 3, 0.5);
-    for (const auto& [a, b] : {std::pair<Entity, Entity>{0, 1}, {1, 2}, {0, 2}}) problem.between(a, b, 1).rod = true;
+    problem.ball({far + 0.5, sqrt(0.75), 0}, {0, 0, 1}, 3, 0.5);
+    for (const auto& [a, b] : {pair<Entity, Entity>{0, 1}, {1, 2}, {0, 2}}) problem.between(a, b, 1).rod = true;
 
     problem.options.duration = 4;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     const Outcome run = run_to_end(*simulator, 4);
     const State& end = run.end;
 
-    for (const auto& [a, b] : {std::pair<int, int>{0, 1}, {1, 2}, {0, 2}})
+    for (const auto& [a, b] : {pair<int, int>{0, 1}, {1, 2}, {0, 2}})
       EXPECT_NEAR((end.position[a] - end.position[b]).norm(), 1, 1e-11);
     EXPECT_NEAR(energy(problem, end), energy(problem, problem.initial), 1e-9);
   }

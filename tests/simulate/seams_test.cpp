@@ -2,8 +2,6 @@
 // one piece.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/force_law.h"
 #include "physics/world.h"
 #include "simulate/build.h"
@@ -28,7 +26,7 @@ TEST(Seams, OfPlanesThatAreNearlyLevelDoNothing) {
       Random random(seed);
       const double e = 0.5 * static_cast<double>(seed % 3), r = random(0.05, 0.5);
       const double top = seed % 4 == 0 ? 0 : random(-2, 2), speed = random(0.5, 3);
-      const double angle = 3e-8 * std::pow(2.0, -static_cast<double>(seed % 25));
+      const double angle = 3e-8 * pow(2.0, -static_cast<double>(seed % 25));
       const double meet = seed % 2 == 0 ? 0.7 * speed : 0;  // ahead, or where the body is
 
       Problem problem;

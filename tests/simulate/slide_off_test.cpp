@@ -1,8 +1,6 @@
 // Without friction a ball slides off a curved top, an edge, a rim, and flies off where the contact force vanishes.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "slow_with_sanitizers.h"
@@ -24,15 +22,15 @@ Leaving leaving(double s, double v0) {
   const double c = (2 + v0 * v0 / (g_n * s)) / 3, angle = std::acos(c);
   // t = integral of s / sqrt(v0^2 + 4 g_n s sin^2(q/2)) dq; with sin(q/2) = k sinh(z), k = v0 / sqrt(4 g_n s), smooth
   // in z.
-  const double k = v0 / std::sqrt(4 * g_n * s), end = std::asinh(std::sin(angle / 2) / k);
+  const double k = v0 / sqrt(4 * g_n * s), end = std::asinh(std::sin(angle / 2) / k);
   const int n = 20000;
   double sum = 0;
   for (int i = 0; i <= n; ++i) {
     const double z = end * i / n, half_sine = k * std::sinh(z);
-    const double f = 2 * s * k / v0 / std::sqrt(1 - half_sine * half_sine);
+    const double f = 2 * s * k / v0 / sqrt(1 - half_sine * half_sine);
     sum += f * (i == 0 || i == n ? 1 : i % 2 == 1 ? 4 : 2);
   }
-  return {c, sum * end / n / 3, s * std::sqrt(1 - c * c), s * c, std::sqrt(g_n * s * c)};
+  return {c, sum * end / n / 3, s * sqrt(1 - c * c), s * c, sqrt(g_n * s * c)};
 }
 
 /// Ball 0 slides over the top at `start` (s) and leaves as expected. Shortly before, the top carries it; shortly after,
@@ -47,7 +45,7 @@ void expect_leaves(const Problem& problem, const Leaving& expected, double start
   go_to(*simulator, start + expected.time + late);
   EXPECT_EQ(simulator->contacts().size(), 0u) << what;
 
-  const double sine = std::sqrt(1 - expected.c * expected.c), t = late;
+  const double sine = sqrt(1 - expected.c * expected.c), t = late;
   const Vec3 v(expected.speed * expected.c, -expected.speed * sine, 0), down(0, -g_n, 0);
   const Vec3 x = center + Vec3(expected.x, expected.y, 0) + t * v + 0.5 * t * t * down;
   const State& state = simulator->state();
@@ -64,8 +62,7 @@ TEST(SlideOff, ABallLeavesAFixedBallAtTwoThirdsOfTheHeight) {
       problem.world.gravity = Vec3(0, -g_n, 0);
       problem.obstacle({0, 0, 0}, Volume::sphere(0.5));
       problem.ball({0, 0.75, 0}, {v0, 0, 0}, 1, 0.25, e);
-      expect_leaves(problem, leaving(0.75, v0), 0, {0, 0, 0},
-                    "ball, v0 = " + std::to_string(v0) + ", e = " + std::to_string(e));
+      expect_leaves(problem, leaving(0.75, v0), 0, {0, 0, 0}, "ball, v0 = " + to_string(v0) + ", e = " + to_string(e));
     }
   }
 }
@@ -147,7 +144,7 @@ TEST(SlideOff, ASlowBallTurnsAboutATablesEdgeAndLeavesByTheSameRule) {
   for (bool wall : {false, true})
     for (double v0 : {0.1, 0.5, 1.0})
       expect_leaves(on_a_table(wall, v0, 0), leaving(0.25, v0), 0.5 / v0, {1, 0, 0.125},
-                    (wall ? "wall, v0 = " : "box, v0 = ") + std::to_string(v0));
+                    (wall ? "wall, v0 = " : "box, v0 = ") + to_string(v0));
 }
 
 TEST(SlideOff, ACylinderFallsOffABoxWithItsCentrePastTheEdgeAndAll) {
@@ -172,7 +169,7 @@ TEST(SlideOff, ABoxFallsOffAMovingBoxAtTheTimeOfTheirRelativeMotion) {
   problem.options.duration = 5;
   const Outcome run = run_exact(problem);
   ASSERT_GE(run.collisions.size(), 1u);
-  const double past = 1.5 / 2, fall = std::sqrt(2 * 0.5 / g_n);
+  const double past = 1.5 / 2, fall = sqrt(2 * 0.5 / g_n);
   EXPECT_NEAR(run.collisions[0].time, past + fall, 1e-9);  // measured: 4.4e-10, for a gap of 1e-10 radii
   EXPECT_LT((run.end.velocity[0] - Vec3(2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((run.end.position[1] - Vec3(0, 0.25, 0)).norm(), 1e-15);

@@ -1,9 +1,6 @@
 // Impacts keep their restitution at any speed where nothing presses the two together, and whatever else the scene has.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <utility>
-
 #include "geometry/contact_time.h"
 #include "physics/force_law.h"
 #include "simulate/build.h"
@@ -31,8 +28,8 @@ Problem cradle(int balls, double angle, double e, double radius = 0.0625) {
 /// The speed (m/s) at the lowest point of a ball of the cradle, by its energy, with the sign of its place.
 double speed_at_the_bottom(const Problem& problem, const State& state, size_t k) {
   const double x = state.position[k].x() - problem.world.strings[k].anchor.x();
-  const double height = x * x / (1 + std::sqrt(1 - x * x));
-  return std::copysign(std::sqrt(state.velocity[k].squaredNorm() + 2 * weight * height), x);
+  const double height = x * x / (1 + sqrt(1 - x * x));
+  return std::copysign(sqrt(state.velocity[k].squaredNorm() + 2 * weight * height), x);
 }
 
 TEST(SlowImpacts, ACradlesBallsSeparateByTheirRestitution) {
@@ -44,7 +41,7 @@ TEST(SlowImpacts, ACradlesBallsSeparateByTheirRestitution) {
         ASSERT_GE(run.collisions.size(), static_cast<size_t>(balls - 1)) << balls << " " << angle << " " << e;
 
         // All impacts happen at the bottom, in the order of the records.
-        const double first = 2 * std::sqrt(weight) * std::sin(angle * M_PI / 360);  // m/s
+        const double first = 2 * sqrt(weight) * std::sin(angle * M_PI / 360);  // m/s
         vector<double> v(static_cast<size_t>(balls), 0.0);
         v[0] = first;
         for (const Collision& met : run.collisions) {
@@ -67,7 +64,7 @@ TEST(SlowImpacts, ARestSpeedDoesNotStopWhatNothingPresses) {
   problem.options.rest_speed = 0.05;
   const Outcome run = run_exact(problem);
   ASSERT_EQ(run.collisions.size(), 1u);
-  const double met = 2 * std::sqrt(weight) * std::sin(0.25 * M_PI / 180);
+  const double met = 2 * sqrt(weight) * std::sin(0.25 * M_PI / 180);
   EXPECT_NEAR(speed_at_the_bottom(problem, run.end, 1), 0.9995 * met, 1e-11);
 }
 
@@ -75,7 +72,7 @@ TEST(SlowImpacts, LadenCartsBounceAsEmptyOnes) {
   for (const double size : {0.1, 1.0, 10.0})
     for (const double e : {0.9, 0.999})
       for (const bool laden : {false, true}) {
-        const double v = 0.05 * std::sqrt(size);
+        const double v = 0.05 * sqrt(size);
         Problem problem;
         problem.world.gravity = Vec3(0, -weight, 0);
         problem.body(Volume::box({size, size, size}), {-size, size / 2, 0}, {v, 0, 0}, 1, e);
@@ -103,7 +100,7 @@ Problem marbles(Track track, double v, double e) {
 
   double height = r;
   if (track == Track::rails) height = 0.008;
-  if (track == Track::groove) height = r * std::sqrt(2.0);
+  if (track == Track::groove) height = r * sqrt(2.0);
   problem.ball({-2 * r, height, 0}, {v, 0, 0}, 0.01, r, e);
   problem.ball({2 * r, height, 0}, {0, 0, 0}, 0.01, r, e);
 
@@ -225,8 +222,8 @@ TEST(SlowImpacts, TwoHeavyBallsCloseInOnALightOneWithAllTheirBounces) {
 
 TEST(MassRatios, AHeavyBallFallsOnALightOneOfAnyMass) {
   // The light one is struck from both sides until the heavy one rests on it. Its mass decides nothing.
-  for (const auto& [light, heavy] : {std::pair(1e-6, 1.0), std::pair(1e-20, 1.0), std::pair(1e-30, 1.0),
-                                     std::pair(1e-60, 1.0), std::pair(1.0, 1e60), std::pair(1e-60, 1e60)}) {
+  for (const auto& [light, heavy] :
+       {pair(1e-6, 1.0), pair(1e-20, 1.0), pair(1e-30, 1.0), pair(1e-60, 1.0), pair(1.0, 1e60), pair(1e-60, 1e60)}) {
     Problem problem;
     problem.world.gravity = Vec3(0, -9.8, 0);
     problem.ball({0, 1, 0}, {0, 0, 0}, light, 0.1, 0.9);
@@ -289,7 +286,7 @@ TEST(EqualAccelerations, BodiesOnSpringsMeetWhenTheirPathsPart) {
       problem.options.duration = 0.03;
       problem.options.closed_forms = closed;
       const double gap = problem.initial.position[1].x() - problem.initial.position[0].x() - 2 * c.radius;
-      const auto way = [&](double k, double t) { return 2 * c.pull / k * std::pow(std::sin(std::sqrt(k) * t / 2), 2); };
+      const auto way = [&](double k, double t) { return 2 * c.pull / k * pow(std::sin(sqrt(k) * t / 2), 2); };
       const auto left = [&](double t) { return gap + way(c.first, t) - way(c.second, t); };
       const Outcome run = run_exact(problem);
       // The stiffer spring slackens first: the left ball must be on it for a meeting.
@@ -321,7 +318,7 @@ TEST(EqualAccelerations, ABallFallsOntoOneOnAStifferSpringAtOnce) {
     const Outcome run = run_exact(problem);
     EXPECT_LT(run.tally.max_overlap, 1e-12) << static_cast<int>(method);
     // They swing together: both weigh on springs of 101 N/m in all.
-    const double w = std::sqrt(101.0 / 2), fallen = weight / (w * w) * (1 - std::cos(w * 0.1));
+    const double w = sqrt(101.0 / 2), fallen = weight / (w * w) * (1 - std::cos(w * 0.1));
     if (method == Integrator::dop853) {
       EXPECT_NEAR(run.end.position[0].y(), 0.2 - fallen, 1e-9);
       EXPECT_NEAR(run.end.position[1].y(), -fallen, 1e-9);

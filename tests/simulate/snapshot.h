@@ -3,7 +3,6 @@
 // simulator shows must be the same, bit for bit.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
 #include <ostream>
 #include <type_traits>

@@ -3,7 +3,6 @@
 // balls has 220 bytes, 0.9 ms and 0.6 ms.
 #include "simulate/snapshot.h"
 
-#include <cmath>
 #include <random>
 
 #include "physics/archive.h"
@@ -75,7 +74,7 @@ TEST(Snapshot, OfASleepingPileWakesAsTheOneThatWasNeverStopped) {
 Problem globe(double rise) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
-  problem.ball({0.2, std::sqrt(2.25 - 0.04), 0}, {0, rise, 0}, 1, 0.5, 0);
+  problem.ball({0.2, sqrt(2.25 - 0.04), 0}, {0, rise, 0}, 1, 0.5, 0);
   problem.ball({-0.3, 4, 0.1}, Vec3::Zero(), 2, 0.25, 0.25);
   problem.obstacle(Vec3::Zero(), Volume::sphere(1));
   problem.plane({0, -3, 0}, {0, 1, 0});

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/build.h"

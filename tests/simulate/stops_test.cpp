@@ -1,8 +1,6 @@
 // Ends of runs: by regions, by numbers of collisions, and at rest.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "simulate/regions.h"
 #include "std.h"
 
@@ -31,7 +29,7 @@ TEST(Stops, EndWhatIsWatched) {
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, 1);  // it enters at y = -1, after sqrt(0.2) s
   EXPECT_NEAR(simulator->extremes()[0].least.value, -1, 1e-14);
-  EXPECT_NEAR(simulator->extremes()[0].least.time, std::sqrt(0.2), 1e-14);
+  EXPECT_NEAR(simulator->extremes()[0].least.time, sqrt(0.2), 1e-14);
 }
 
 TEST(Stops, RecordAllThatEnterAtThatInstant) {

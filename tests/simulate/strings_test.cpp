@@ -1,8 +1,6 @@
 // Strings against closed forms: where they go taut and slack, impacts of them, and what they hold.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "numerics/polynomial.h"
 #include "physics/force_law.h"
 #include "simulate/regions.h"
@@ -23,13 +21,13 @@ TEST(Strings, ASlackStringHoldsNothingAndGoesTautAtTheTimeOfTheClosedForm) {
   ASSERT_EQ(run.collisions.size(), 1u);
   const Collision& taut = run.collisions[0];
 
-  const double drop = std::sqrt(1.3 * 1.3 - 0.25), at = std::sqrt(2 * drop / g_n), v = g_n * at;
+  const double drop = sqrt(1.3 * 1.3 - 0.25), at = sqrt(2 * drop / g_n), v = g_n * at;
   EXPECT_EQ(taut.kind, CollisionKind::taut);
   EXPECT_NEAR(taut.time, at, 1e-15);
   EXPECT_NEAR(taut.approach_speed, v * drop / 1.3, 1e-14);
   EXPECT_EQ(taut.separation_speed, 0);
   EXPECT_NEAR(taut.impulse, 2 * v * drop / 1.3, 1e-14);
-  EXPECT_NEAR(taut.energy_lost, std::pow(v * drop / 1.3, 2), 1e-13);
+  EXPECT_NEAR(taut.energy_lost, pow(v * drop / 1.3, 2), 1e-13);
   EXPECT_LT((taut.normal - Vec3(0.3, -drop, 0.4) / 1.3).norm(), 1e-15);
 
   EXPECT_NEAR(run.end.position[0].norm(), 1.3, 1e-12);
@@ -302,7 +300,7 @@ TEST(Strings, ARunThatStopsAtRestEndsWhereTheLastBallHangs) {
   const Outcome run = run_exact(problem);
   ASSERT_TRUE(run.tally.end.has_value());
   // The fall takes f, the hops after it f each, by half as much speed: f (1 + 2 (1/2 + 1/4 + ...)).
-  EXPECT_NEAR(run.tally.end->time, 3 * std::sqrt(2 / g_n), 0.05);
+  EXPECT_NEAR(run.tally.end->time, 3 * sqrt(2 / g_n), 0.05);
 }
 
 // A ball that hangs on two almost straight strings: forces of m g / (2 sag), until they have less than three digits.

@@ -2,9 +2,6 @@
 // doubles, and the edge of a window has one: events come before it, at it and after it, all at the same double.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <set>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "std.h"
@@ -12,7 +9,7 @@
 namespace carom {
 namespace {
 
-constexpr double forever = std::numeric_limits<double>::infinity();
+constexpr double forever = infinity;
 
 /// A ball that bounces until it rests.
 Problem bouncing() {
@@ -53,8 +50,8 @@ Problem dragged() {
   return problem;
 }
 
-std::set<double> instants_of(const Problem& problem) {
-  std::set<double> instants;
+set<double> instants_of(const Problem& problem) {
+  set<double> instants;
   for (const Collision& c : run_exact(problem).all)
     if (c.time > 0) instants.insert(c.time);
   return instants;

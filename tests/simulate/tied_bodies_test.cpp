@@ -1,10 +1,6 @@
 // Many bodies tied to each other: a hammock, cradles, chains, frames, and ties at random.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "simulate/random.h"
 #include "simulate/ties.h"
 #include "slow_with_sanitizers.h"
@@ -22,7 +18,7 @@ Tied hammock() {
   // kg, by g: half of B's weight, and from the slope 1/2 of B's strings their horizontal pull; with A's weight.
   const double half = 1, level = 2 * half, down = half + 1;
   const Vec3 out = Vec3(-level, down, 0);
-  for (const auto& [from, to] : {std::pair<Entity, Entity>{0, 1}, {1, 2}})
+  for (const auto& [from, to] : {pair<Entity, Entity>{0, 1}, {1, 2}})
     problem.between(from, to, (problem.initial.position[from] - problem.initial.position[to]).norm());
   problem.anchored(0, problem.initial.position[0] + 0.5 * out, (0.5 * out).norm());
   problem.anchored(2, problem.initial.position[2] + 0.5 * Vec3(level, down, 0), (0.5 * out).norm());

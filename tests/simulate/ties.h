@@ -1,6 +1,5 @@
 #pragma once
 // Bodies on strings and rods, for tests.
-#include <cmath>
 
 #include "simulate/build.h"
 #include "std.h"
@@ -24,10 +23,10 @@ inline double period(double length, double angle, double gravity = g_n) {
   double a = 1, b = std::cos(angle / 2);
   for (int k = 0; k < 8; ++k) {
     const double mean = (a + b) / 2;
-    b = std::sqrt(a * b);
+    b = sqrt(a * b);
     a = mean;
   }
-  return 2 * M_PI * std::sqrt(length / gravity) / a;
+  return 2 * M_PI * sqrt(length / gravity) / a;
 }
 
 inline Tied pendulum(double angle, double length, bool rod = false) {

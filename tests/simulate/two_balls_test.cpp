@@ -28,7 +28,7 @@ void expect_case(const nlohmann::json& reference_case, const nlohmann::json& p, 
     const Outcome run = run_exact(problem);
     ASSERT_EQ(run.collisions.size(), 1u) << "e = " << e;
     const Collision& c = run.collisions[0];
-    const string what = "e = " + std::to_string(e);
+    const string what = "e = " + to_string(e);
 
     EXPECT_NEAR(c.time / r["t_contact"].get<double>(), 1, tight) << what;
     EXPECT_NEAR(c.impulse / r["impulse"].get<double>(), 1, tight) << what;
@@ -81,7 +81,7 @@ TEST(TwoBalls, WhatTheyHaveInCommonTakesNoDigitsOfTheirNormal) {
 
     const Collision alone = meet(Vec3::Zero(), Vec3::Zero());
     // In other frames and other falls.
-    for (const auto& [gravity, common] : {std::pair(Vec3(0, -1e-3, 0), Vec3(0, 0, 0)),
+    for (const auto& [gravity, common] : {pair(Vec3(0, -1e-3, 0), Vec3(0, 0, 0)),
                                           {Vec3(0, 0, 0), Vec3(8192, 0, 1024)},
                                           {Vec3(1e-4, 2e-4, -1e-3), Vec3(-512, 64, 1024)}}) {
       const Collision there = meet(gravity, common);

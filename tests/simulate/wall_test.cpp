@@ -1,8 +1,6 @@
 // Finite walls: faces, edges, corners, sliding over the rim.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/build.h"
 #include "slow_with_sanitizers.h"
@@ -42,7 +40,7 @@ TEST(Wall, ACornerHasTheNormalOfItsPoint) {
   // The centre passes the corner (0, 1, 1) at (0.2, 0.2) beside it: x = sqrt(0.25 - 0.08).
   const Outcome run = run_exact(at_wall({3, 1.2, 1.2}, {-1, 0, 0}));
   ASSERT_EQ(run.collisions.size(), 1u);
-  const double x = std::sqrt(0.25 - 0.08);
+  const double x = sqrt(0.25 - 0.08);
   EXPECT_NEAR(run.collisions[0].time, 3 - x, 1e-15);
   EXPECT_LT((run.collisions[0].normal + Vec3(x, 0.2, 0.2) / 0.5).norm(), 4e-15);
 }
@@ -82,7 +80,7 @@ TEST(Wall, EveryParabolaMeetsTheRectangleWhereADenseMarchDoes) {
       const Vec3 p = x + t * v + 0.5 * t * t * problem.world.gravity - wall.center;
       const double u = std::max(std::abs(p.dot(wall.right)) - wall.half_width, 0.0);
       const double w = std::max(std::abs(p.dot(wall.up)) - wall.half_height, 0.0);
-      return std::sqrt(u * u + w * w + std::pow(p.dot(wall.normal), 2));
+      return sqrt(u * u + w * w + pow(p.dot(wall.normal), 2));
     };
 
     if (distance(0) < radius) continue;

@@ -1,9 +1,6 @@
 #pragma once
 // Problems of contact: rows, stacks, lattices and random packings of balls, wedges and near copies; with masses over
 // any number of decades; under gravity, pushed, or struck. For tests and for ./dev bench contacts.
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "solver/contact_problem.h"
 #include "std.h"
@@ -67,7 +64,7 @@ inline Balls stack(int n) {
 /// 4 cells^3 balls, face-centred cubic, as tight as can be.
 inline Balls lattice(int cells) {
   Balls balls;
-  const double edge = std::sqrt(2.0);
+  const double edge = sqrt(2.0);
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j)
       for (int k = 0; k < cells; ++k)
@@ -83,13 +80,13 @@ inline vector<ContactConstraint> contacts_of(const Balls& balls) {
   const double reach = 1 + balls.near;
 
   const auto cell_of = [&](const Vec3& x) {
-    return Cell{static_cast<int64_t>(std::floor(x.x() / reach)), static_cast<int64_t>(std::floor(x.y() / reach)),
-                static_cast<int64_t>(std::floor(x.z() / reach))};
+    return Cell{static_cast<int64_t>(floor(x.x() / reach)), static_cast<int64_t>(floor(x.y() / reach)),
+                static_cast<int64_t>(floor(x.z() / reach))};
   };
 
-  vector<std::pair<Cell, uint32_t>> cells;
+  vector<pair<Cell, uint32_t>> cells;
   for (uint32_t i = 0; i < balls.center.size(); ++i) cells.emplace_back(cell_of(balls.center[i]), i);
-  std::ranges::sort(cells);
+  ranges::sort(cells);
 
   vector<ContactConstraint> contacts;
   for (uint32_t i = 0; i < balls.center.size(); ++i) {
@@ -104,7 +101,7 @@ inline vector<ContactConstraint> contacts_of(const Balls& balls) {
     const Cell here = cell_of(x);
     for (int step = 0; step < 27; ++step) {
       const Cell there{here[0] + step / 9 - 1, here[1] + step / 3 % 3 - 1, here[2] + step % 3 - 1};
-      auto it = std::lower_bound(cells.begin(), cells.end(), std::pair(there, i + 1));
+      auto it = std::lower_bound(cells.begin(), cells.end(), pair(there, i + 1));
       for (; it != cells.end() && it->first == there; ++it) {
         const Vec3 d = balls.center[it->second] - x;
         if (d.norm() <= reach) contacts.push_back({i, it->second, d.normalized()});
@@ -159,7 +156,7 @@ inline constexpr array loads{Load::gravity, Load::push, Load::impact};
 /// at random.
 inline Case loaded(const string& name, const Balls& balls, Load load, double decades, uint64_t seed = 1) {
   constexpr array words{"gravity", "push", "impact"};
-  Case c{name + ", " + words[static_cast<size_t>(load)] + ", masses 1e" + std::to_string(static_cast<int>(decades)),
+  Case c{name + ", " + words[static_cast<size_t>(load)] + ", masses 1e" + to_string(static_cast<int>(decades)),
          {},
          {},
          contacts_of(balls)};
@@ -167,7 +164,7 @@ inline Case loaded(const string& name, const Balls& balls, Load load, double dec
   Draw draw(seed);
 
   for (size_t i = 0; i < balls.center.size(); ++i) {
-    c.inverse_mass.push_back(std::pow(10.0, draw(0, decades)));
+    c.inverse_mass.push_back(pow(10.0, draw(0, decades)));
 
     Vec3 u(0, 0, load == Load::impact ? 0 : -9.81);
     const double chance = draw(0, 1), size = draw(0, 1);
@@ -184,13 +181,12 @@ inline Case loaded(const string& name, const Balls& balls, Load load, double dec
 /// or (squeezed) the walls close in and throw it out.
 inline Case wedge(double angle, bool squeezed) {
   const double c = std::cos(angle), s = std::sin(angle);
-  Case it{
-      "wedge of 1e" + std::to_string(static_cast<int>(std::lround(std::log10(angle)))) + (squeezed ? ", squeezed" : ""),
-      {1, 0.5},
-      {Vec3(0.1, 0, -9.81), Vec3(0.02, 0.01, -9.81)},
-      {{0, ContactConstraint::fixed, Vec3(c, 0, -s)},
-       {0, ContactConstraint::fixed, Vec3(-c, 0, -s)},
-       {0, 1, Vec3(std::sin(0.3), 0, std::cos(0.3))}}};
+  Case it{"wedge of 1e" + to_string(static_cast<int>(std::lround(std::log10(angle)))) + (squeezed ? ", squeezed" : ""),
+          {1, 0.5},
+          {Vec3(0.1, 0, -9.81), Vec3(0.02, 0.01, -9.81)},
+          {{0, ContactConstraint::fixed, Vec3(c, 0, -s)},
+           {0, ContactConstraint::fixed, Vec3(-c, 0, -s)},
+           {0, 1, Vec3(std::sin(0.3), 0, std::cos(0.3))}}};
   if (squeezed) it.contacts[0].target = it.contacts[1].target = 1;
   return it;
 }
@@ -198,7 +194,7 @@ inline Case wedge(double angle, bool squeezed) {
 /// Each contact twice, the second turned by this angle (rad).
 inline Case with_copies(Case c, double angle, uint64_t seed = 1) {
   Draw draw(seed);
-  c.name += ", copies 1e" + std::to_string(static_cast<int>(std::lround(std::log10(angle))));
+  c.name += ", copies 1e" + to_string(static_cast<int>(std::lround(std::log10(angle))));
   const size_t n = c.contacts.size();
   for (size_t k = 0; k < n; ++k) {
     ContactConstraint copy = c.contacts[k];

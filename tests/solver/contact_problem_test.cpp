@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <numeric>
 
 #include "solver/active_set.h"
@@ -85,7 +84,7 @@ TEST(ContactProblem, AStruckRowGoesOnWithItsMomentum) {
   for (const int n : {2, 9, 60, 300}) {
     Case c = loaded("row", row(n), Load::gravity, 0);
     std::erase_if(c.contacts, [](const ContactConstraint& contact) { return contact.b == fixed; });
-    std::ranges::fill(c.motion, Vec3::Zero());
+    ranges::fill(c.motion, Vec3::Zero());
     c.motion[0] = Vec3(1, 0, 0);
     EXPECT_TRUE(solve_case(c).solved());
     for (const Vec3& u : c.motion) EXPECT_NEAR(u.x(), 1.0 / n, 1e-16) << n;
@@ -97,8 +96,8 @@ TEST(ContactProblem, SmallProblemsAreExactWhateverTheMasses) {
   for (const Load load : loads)
     for (const double decades : {0.0, 3.0, 6.0, 9.0, 12.0}) {
       for (const int n : {2, 3, 10, 30}) {
-        held += expect_exact(loaded("row of " + std::to_string(n), row(n), load, decades));
-        held += expect_exact(loaded("stack of " + std::to_string(n), stack(n), load, decades));
+        held += expect_exact(loaded("row of " + to_string(n), row(n), load, decades));
+        held += expect_exact(loaded("stack of " + to_string(n), stack(n), load, decades));
       }
 
       held += expect_exact(loaded("lattice of 4", lattice(1), load, decades));
@@ -112,7 +111,7 @@ TEST(ContactProblem, SmallProblemsAreExactWhateverTheMasses) {
 
 TEST(ContactProblem, WedgesAndNearCopiesAreExact) {
   for (int k = 2; k <= 12; ++k) {
-    const double angle = std::pow(10.0, -k);
+    const double angle = pow(10.0, -k);
     expect_exact(wedge(angle, false));
     if (k <= 7) expect_exact(wedge(angle, true));
     expect_exact(with_copies(loaded("packing of 12", packing(12, 4), Load::push, 3), angle));
@@ -124,7 +123,7 @@ TEST(ContactProblem, WedgesAndNearCopiesAreExact) {
 /// A ball that the two walls of a wedge close in on at 1 m/s slips out at 1 / sin(angle).
 TEST(ContactProblem, ABallIsSqueezedOutOfAWedge) {
   for (int k = 1; k <= 10; ++k) {
-    const double angle = std::pow(10.0, -k), c = std::cos(angle), s = std::sin(angle);
+    const double angle = pow(10.0, -k), c = std::cos(angle), s = std::sin(angle);
     const vector<double> inverse_mass{1};
     vector<Vec3> u{Vec3::Zero()};
     vector<ContactConstraint> contacts{{0, fixed, {c, 0, -s}, 1}, {0, fixed, {-c, 0, -s}, 1}};
@@ -182,7 +181,7 @@ TEST(ContactProblem, OtherUnitsGiveTheSameBits) {
 TEST(ContactProblem, OrderAndOtherIslandsDoNotMatter) {
   const Case given = loaded("", packing(30, 2), Load::push, 3);
   Case p = given, reversed = given, beside = given;
-  std::ranges::reverse(reversed.contacts);
+  ranges::reverse(reversed.contacts);
 
   const auto n = static_cast<uint32_t>(given.motion.size());
   // The other island: the same, far heavier and faster.

@@ -2,8 +2,6 @@
 // The motion that contacts allow, in quadruple precision, for given pressing contacts. An independent method finds it:
 // Cholesky's factors of J M^-1 J^T. It holds if no contact pulls and none is violated in that precision, since the
 // motion is unique.
-#include <algorithm>
-#include <cmath>
 
 #include "solver/contact_cases.h"
 #include "solver/contact_problem.h"
@@ -14,7 +12,7 @@ namespace carom::contact_cases {
 __extension__ typedef __float128 Quad;
 
 inline Quad square_root(Quad x) {
-  Quad root = std::sqrt(static_cast<double>(x));
+  Quad root = sqrt(static_cast<double>(x));
   for (int k = 0; k < 3; ++k) root = root > 0 ? (root + x / root) / 2 : root;
   return root;
 }

@@ -77,7 +77,7 @@ TEST(LeastForces, AreThoseOfAnIndependentSolverInAnyOrder) {
   for (const auto& entry : all) {
     const Standing standing = standing_of(entry);
     const vector<double> expected = entry["force"];
-    const double greatest = *std::ranges::max_element(expected);
+    const double greatest = *ranges::max_element(expected);
 
     for (uint64_t seed = 0; seed < 4; ++seed) {
       vector<size_t> which;
@@ -125,7 +125,7 @@ TEST(LeastForces, CorrectedOnesLeaveNoMotion) {
     vector<Vec3> a(standing.inverse_mass.size(), Vec3(0, -10, 0));
     correct_hold({standing.inverse_mass, a, standing.contacts});
 
-    const double greatest = *std::ranges::max_element(expected);
+    const double greatest = *ranges::max_element(expected);
     for (const Vec3& left : a) EXPECT_LT(left.norm(), 1e-11) << entry["name"];
     for (size_t k = 0; k < expected.size(); ++k) {
       EXPECT_GE(standing.contacts[k].force, 0);

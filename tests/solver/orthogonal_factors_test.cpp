@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "solver/contact_cases.h"
 #include "std.h"
 

@@ -2,9 +2,6 @@
 // by independent computations in long double.
 #include "stress/check.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "std.h"
 #include "stress/digits.h"
@@ -17,7 +14,7 @@ namespace carom::stress {
 namespace {
 
 string names_of(Entity a, Entity b) {
-  return std::to_string(a) + " and " + std::to_string(b);
+  return to_string(a) + " and " + to_string(b);
 }
 
 /// The scene's own coefficient of a pair, from the rules of the scene format.
@@ -49,7 +46,7 @@ double coefficient(const World& world, Entity a, Entity b) {
       return e1 * e2;
 
     case Combine::geometric_mean:
-      return std::sqrt(e1 * e2);
+      return sqrt(e1 * e2);
     case Combine::mass_weighted:
       return world.is_body(b) ? (m1 * e1 + m2 * e2) / (m1 + m2) : e2;
     case Combine::book:
@@ -66,7 +63,7 @@ class Check {
   void run() {
     first_ = watch(scene_, {}, patience_);
     if (first_.too_slow)
-      return fail("takes more than " + text(patience_) + " s of CPU time, " + std::to_string(first_.records.size()) +
+      return fail("takes more than " + text(patience_) + " s of CPU time, " + to_string(first_.records.size()) +
                   " records so far");
 
     verdict_.collisions = first_.tally.collisions();
@@ -99,7 +96,7 @@ class Check {
 
   /// A run that may end with an error is checked up to some of its collisions.
   void stop() {
-    const bool lively = std::ranges::any_of(world_.restitution, [](double e) { return e > 1; });
+    const bool lively = any_of(world_.restitution, [](double e) { return e > 1; });
     if (!scene_.may_stop && first_.error.find("max_collisions") != string::npos) {
       // Many collisions are no fault if they come to an end. Light balls in a row between heavy ones, with e = 0.9,
       // have 24,845 in 0.03 s of CPU time. Endless ones exceed the time limit.
@@ -135,7 +132,7 @@ class Check {
     for (const State& s : seen_.seen)
       for (size_t i = 0; i < s.position.size(); ++i)
         if (!s.position[i].allFinite() || !s.velocity[i].allFinite()) {
-          fail("body " + std::to_string(i) + " is nowhere at t = " + text(s.time));
+          fail("body " + to_string(i) + " is nowhere at t = " + text(s.time));
           return false;
         }
     return true;
@@ -153,7 +150,7 @@ class Check {
       sum += kinetic + potential;
 
       for (const Force& f : world_.forces) {
-        if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::ranges::count(f.on, i))) continue;
+        if (f.from > 0 || isfinite(f.until) || !(f.on.empty() || ranges::count(f.on, i))) continue;
         sum -= (per_mass(f) ? world_.mass[i] : 1) * value(f).cast<long double>().dot(s.position[i].cast<long double>());
       }
 
@@ -181,7 +178,7 @@ class Check {
     const Tally& t = first_.tally;
     const double events = static_cast<double>(first_.records.size());
     // In islands paths are integrated, not closed forms.
-    const double relative = 2e-14 * (1 + std::sqrt(events)) + (t.collapses > 0 ? 1e-10 : 0);
+    const double relative = 2e-14 * (1 + sqrt(events)) + (t.collapses > 0 ? 1e-10 : 0);
     const double tolerance = relative * (size + std::abs(t.energy_lost) + std::abs(t.work));
     const double residual = static_cast<double>(end - start) + t.energy_lost + t.method_error - t.work;
     // What errors of crowds make (measured: 1.3e-3 in 7,000 scenes), else almost nothing.
@@ -290,8 +287,8 @@ class Check {
     const Watched other = watch(scaled(scene_, length, time, mass_unit), {}, patience_);
     const string what = difference(first_, other, length, time, mass_unit);
     if (!what.empty())
-      fail("scaled by powers of two " + std::to_string(length) + ", " + std::to_string(time) + ", " +
-           std::to_string(mass_unit) + " differs: " + what);
+      fail("scaled by powers of two " + to_string(length) + ", " + to_string(time) + ", " + to_string(mass_unit) +
+           " differs: " + what);
   }
 
   /// With rotated axes only rounding differs: the first collision is the same, if it is not grazing and not one of

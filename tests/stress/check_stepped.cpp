@@ -1,7 +1,5 @@
 // The same scenes in long steps of time, by every method. A run ends, no position is undefined, no bodies overlap, and
 // outputs change nothing. Energy does not grow, except by Euler's method, of order 1.
-#include <algorithm>
-#include <cmath>
 
 #include "physics/world.h"
 #include "simulate/exact.h"
@@ -52,7 +50,7 @@ long double energy(const World& world, const State& s, long double& size) {
     add(0.5L * m * s.velocity[i].cast<long double>().squaredNorm());
     for (int axis = 0; axis < 3; ++axis) add(-m * world.gravity[axis] * x[axis]);
     for (const Force& f : world.forces) {
-      if (f.from > 0 || std::isfinite(f.until) || !(f.on.empty() || std::ranges::count(f.on, i))) continue;
+      if (f.from > 0 || isfinite(f.until) || !(f.on.empty() || ranges::count(f.on, i))) continue;
       for (int axis = 0; axis < 3; ++axis) add(-(per_mass(f) ? m : 1) * value(f)[axis] * x[axis]);
     }
   }
@@ -74,7 +72,7 @@ Verdict check_stepped(const RandomScene& scene) {
   options.record_collisions = false;
 
   const string what =
-      "in " + std::to_string(steps) + " steps by method " + std::to_string(static_cast<int>(options.integrator)) + ": ";
+      "in " + to_string(steps) + " steps by method " + to_string(static_cast<int>(options.integrator)) + ": ";
   const auto fail = [&](const string& why) {
     if (verdict.violations.size() < 12) verdict.violations.push_back(what + why);
   };
@@ -96,11 +94,11 @@ Verdict check_stepped(const RandomScene& scene) {
     fail("outputs change where it ends");
 
   // All bodies are somewhere, and none overlap.
-  const bool lively = std::ranges::any_of(world.restitution, [](double e) { return e > 1; });
+  const bool lively = any_of(world.restitution, [](double e) { return e > 1; });
   for (const State& s : often.states)
     for (Entity a = 0; a < world.body_count(); ++a) {
       if (!s.position[a].allFinite() || !s.velocity[a].allFinite()) {
-        fail("body " + std::to_string(a) + " is nowhere at t = " + text(s.time));
+        fail("body " + to_string(a) + " is nowhere at t = " + text(s.time));
         return verdict;
       }
 
@@ -111,7 +109,7 @@ Verdict check_stepped(const RandomScene& scene) {
             -static_cast<double>(gap(world, a, s.position[a].cast<long double>(), b, xb.cast<long double>()));
         const double size = body ? std::min(world.radius[a], world.radius[b]) : world.radius[a];
         if (!lively && depth > deepest * size + 1e-12 * s.position[a].norm())
-          fail(std::to_string(a) + " and " + std::to_string(b) + " overlap by " + text(depth / size) +
+          fail(to_string(a) + " and " + to_string(b) + " overlap by " + text(depth / size) +
                " of a radius at t = " + text(s.time));
       }
     }

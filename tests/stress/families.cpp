@@ -1,6 +1,4 @@
 // Families of random scenes, each for one kind of difficulty.
-#include <algorithm>
-#include <cmath>
 
 #include "physics/bounds.h"
 #include "physics/world.h"
@@ -189,7 +187,7 @@ void cradles(Maker& m) {
   }
 
   const double pull = m.scene.world.gravity.norm();  // to 1e9 m
-  m.scene.options.duration = std::min({1e6, 60 * radius / speed, pull > 0 ? std::sqrt(2e9 / pull) : 1e6});
+  m.scene.options.duration = std::min({1e6, 60 * radius / speed, pull > 0 ? sqrt(2e9 / pull) : 1e6});
 }
 
 /// A pile that falls into a box or a groove and comes to rest.
@@ -270,10 +268,9 @@ double time_in_bounds(const RandomScene& scene) {
     const Vec3 kick = world.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world.impulse[i] / world.mass[i]);
     speed = std::max(speed, (scene.initial.velocity[i] + kick).norm());
   }
-  for (const Force& f : world.forces)
-    pull += value(f).norm() / (per_mass(f) ? 1 : *std::ranges::min_element(world.mass));
+  for (const Force& f : world.forces) pull += value(f).norm() / (per_mass(f) ? 1 : *ranges::min_element(world.mass));
   const double way = 0.1 * bounds_of(world).place;
-  return 2 * way / (speed + std::sqrt(speed * speed + 2 * pull * way));
+  return 2 * way / (speed + sqrt(speed * speed + 2 * pull * way));
 }
 
 struct Family {
@@ -307,11 +304,10 @@ RandomScene make_scene(uint64_t seed, string_view bytes) {
   scene.options.duration = std::min(scene.options.duration, time_in_bounds(scene));
   // Endless bounces may exceed the limit of collisions.
   const auto lasting = [](const auto& thing) { return thing.restitution.value_or(0) >= 1; };
-  scene.may_stop = scene.may_stop || std::ranges::any_of(world.restitution, [](double e) { return e >= 1; }) ||
-                   std::ranges::any_of(world.pairs, [](const PairRestitution& p) { return p.value >= 1; }) ||
-                   std::ranges::any_of(world.planes, lasting) || std::ranges::any_of(world.walls, lasting) ||
-                   std::ranges::any_of(world.obstacles, lasting);
-  const bool spheres = std::ranges::all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
+  scene.may_stop = scene.may_stop || any_of(world.restitution, [](double e) { return e >= 1; }) ||
+                   any_of(world.pairs, [](const PairRestitution& p) { return p.value >= 1; }) ||
+                   any_of(world.planes, lasting) || any_of(world.walls, lasting) || any_of(world.obstacles, lasting);
+  const bool spheres = all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });
   if (spheres && !maker.chance(0.1)) world.volume.clear();
   return scene;
 }

@@ -1,10 +1,8 @@
 #include "stress/gaps.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/touch.h"
 #include "physics/world.h"
+#include "std.h"
 
 namespace carom::stress {
 
@@ -18,11 +16,11 @@ Real clamped(Real x, Real half) {
 
 /// Of gaps along directions at right angles: the distance, or the least way out.
 Real joined(Real p, Real q) {
-  return p > 0 && q > 0 ? std::hypot(p, q) : std::max(p, q);
+  return p > 0 && q > 0 ? hypot(p, q) : std::max(p, q);
 }
 
 Real level(const Long3& d) {
-  return std::hypot(d.x(), d.z());
+  return hypot(d.x(), d.z());
 }
 
 Real sphere_and_box(const Long3& d, Real radius, const Vec3& half) {
@@ -40,7 +38,7 @@ Real sphere_and_cylinder(const Long3& d, Real radius, const Vec3& half) {
 
 Real box_and_cylinder(const Long3& d, const Vec3& box, const Vec3& cylinder) {
   const Real x = d.x() - clamped(d.x(), box.x()), z = d.z() - clamped(d.z(), box.z());
-  const Real out = x == 0 && z == 0 ? std::max(std::abs(d.x()) - box.x(), std::abs(d.z()) - box.z()) : std::hypot(x, z);
+  const Real out = x == 0 && z == 0 ? std::max(std::abs(d.x()) - box.x(), std::abs(d.z()) - box.z()) : hypot(x, z);
   return joined(out - cylinder.x(), std::abs(d.y()) - box.y() - cylinder.y());
 }
 
@@ -72,7 +70,7 @@ Real at_plane(const Long3& x, const Volume& v, const Plane& p, const Long3& poin
 Real sphere_at_wall(const Long3& x, Real radius, const Wall& w, const Long3& center) {
   const Long3 d = x - center;
   const Real r = d.dot(w.right.cast<Real>()), u = d.dot(w.up.cast<Real>()), n = d.dot(w.normal.cast<Real>());
-  return std::hypot(r - clamped(r, w.half_width), u - clamped(u, w.half_height), n) - radius;
+  return hypot(r - clamped(r, w.half_width), u - clamped(u, w.half_height), n) - radius;
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "stress/make_scene.h"
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "std.h"
 #include "stress/gaps.h"
@@ -13,7 +11,7 @@ namespace {
 /// v / |v|, with the roundings of the loader.
 Vec3 unit(const Vec3& v) {
   const Vec3 scaled = v / v.cwiseAbs().maxCoeff();
-  return scaled / std::sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
+  return scaled / sqrt(scaled.x() * scaled.x() + scaled.y() * scaled.y() + scaled.z() * scaled.z());
 }
 
 /// Applies the loader's rounding to v until it no longer changes: so a file gives the same bits.
@@ -44,7 +42,7 @@ Vec3 Maker::direction() {
   for (;;) {
     const Vec3 v = somewhere(1);
     const double square = v.squaredNorm();
-    if (square > 0.01 && square <= 1) return v / std::sqrt(square);
+    if (square > 0.01 && square <= 1) return v / sqrt(square);
   }
 }
 
@@ -160,7 +158,7 @@ void Maker::rules() {
   for (int k = whole(1, 3); k > 0; --k) {
     const auto a = static_cast<Entity>(whole(0, static_cast<int>(world.body_count()) - 1));
     const auto b = static_cast<Entity>(whole(0, all - 1));
-    const bool known = std::ranges::any_of(world.pairs, [&](const PairRestitution& p) {
+    const bool known = any_of(world.pairs, [&](const PairRestitution& p) {
       return (p.a_first == a && p.b_first == b) || (p.a_first == b && p.b_first == a);
     });
     if (a != b && !known) world.pairs.push_back({a, 1, b, 1, restitution()});
@@ -174,7 +172,7 @@ void Maker::motions(World& world, double duration, double speed) {
     double from = chance(0.4) ? 0 : duration * uniform(0, 0.7);
     for (int k = whole(1, 3); k > 0; --k) {
       const bool last = k == 1 && chance(0.3);
-      const double until = last ? std::numeric_limits<double>::infinity() : from + duration * uniform(0.01, 0.3);
+      const double until = last ? infinity : from + duration * uniform(0.01, 0.3);
       const Vec3 along = chance(0.5) ? Vec3(any({-1, 1}) * Vec3::Unit(whole(0, 2))) : direction();
       windows.push_back({from, until, speed * uniform(0, 1) * along});
       from = chance(0.3) ? until : until + duration * uniform(0.01, 0.3);
@@ -192,7 +190,7 @@ void Maker::forces(double duration, double acceleration) {
     const Vec3 value = acceleration * uniform(0, 1) * direction();
     const double mass = world.mass.empty() ? 1 : world.mass[0];
     const double from = chance(0.5) ? 0 : duration * uniform(0, 1);
-    const double until = chance(0.6) ? from + duration * uniform(0.01, 0.7) : std::numeric_limits<double>::infinity();
+    const double until = chance(0.6) ? from + duration * uniform(0.01, 0.7) : infinity;
 
     if (per_mass)
       world.forces.push_back({UniformAcceleration{value}, from, until});

@@ -1,6 +1,5 @@
 #pragma once
 // The maker of random scenes: draws numbers, places things where there is room.
-#include <cmath>
 #include <initializer_list>
 #include <iterator>
 
@@ -17,7 +16,7 @@ class Maker {
   // Numbers.
   double uniform(double low, double high) { return random_(low, high); }
   double spread(double low, double high);  // by its logarithm
-  int whole(int low, int high) { return static_cast<int>(std::floor(random_(low, high + 1))); }
+  int whole(int low, int high) { return static_cast<int>(floor(random_(low, high + 1))); }
   bool chance(double p) { return random_(0, 1) < p; }
   double any(std::initializer_list<double> list) {
     return std::data(list)[whole(0, static_cast<int>(list.size()) - 1)];

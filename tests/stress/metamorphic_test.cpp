@@ -2,8 +2,6 @@
 // tolerance with a unit or a preferred direction shows at once.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <numeric>
 
@@ -197,7 +195,7 @@ double order_difference(const Motion& motion, Way way) {
   vector<Entity> order(motion.world.body_count());
   std::iota(order.rbegin(), order.rend(), Entity{0});  // backwards
   const Observed a = run(motion, way), b = run(reordered(motion, order), way);
-  if (a.error != b.error) return std::numeric_limits<double>::infinity();
+  if (a.error != b.error) return infinity;
   double most = 0;
   for (size_t k = 0; k < order.size(); ++k)
     most = std::max(most, (a.end.position[order[k]] - b.end.position[k]).norm());

@@ -1,9 +1,6 @@
 #include "stress/paths.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "physics/world.h"
 #include "std.h"
@@ -148,7 +145,7 @@ double Paths::deepest(const World& world, Entity a, const Path& pa, Entity b, co
 
 vector<string> Paths::overlaps() const {
   vector<string> found;
-  std::set<std::pair<Entity, Entity>> known;
+  set<pair<Entity, Entity>> known;
   World world = scene_.world;
   const Entity bodies = world.body_count(), all = bodies + world.fixed_count();
 

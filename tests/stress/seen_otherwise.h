@@ -1,7 +1,5 @@
 #pragma once
 // A scene transformed: mirrored, in other units, with another scene far away. It must move the same, to the bit.
-#include <algorithm>
-#include <cmath>
 
 #include "physics/force.h"
 #include "simulate/exact.h"
@@ -157,11 +155,10 @@ template <typename Position, typename Velocity>
 string difference(const Observed& a, const Observed& b, double lost, const Position& back_x, const Velocity& back_v) {
   if (a.error.empty() != b.error.empty()) return "one ends with an error: " + a.error + b.error;
   if (!a.error.empty()) return {};
-  if (a.collisions != b.collisions)
-    return std::to_string(a.collisions) + " and " + std::to_string(b.collisions) + " collisions";
+  if (a.collisions != b.collisions) return to_string(a.collisions) + " and " + to_string(b.collisions) + " collisions";
   for (size_t i = 0; i < a.end.position.size(); ++i)
     if (!same(a.end.position[i], back_x(b.end.position[i])) || !same(a.end.velocity[i], back_v(b.end.velocity[i])))
-      return "body " + std::to_string(i);
+      return "body " + to_string(i);
   return a.energy_lost == b.energy_lost * lost ? "" : "energy lost";
 }
 

@@ -1,7 +1,5 @@
 #include "stress/watch.h"
 
-#include <algorithm>
-#include <cmath>
 #include <ctime>
 
 #include "physics/world.h"
@@ -87,7 +85,7 @@ vector<double> sample_times(const RandomScene& scene, const vector<Collision>& r
 
   times.erase(std::remove_if(times.begin(), times.end(), [&](double t) { return !(t >= 0 && t <= duration); }),
               times.end());
-  std::ranges::sort(times);
+  ranges::sort(times);
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
@@ -113,18 +111,18 @@ string difference(const Watched& a, const Watched& b, int length, int time, int 
         !same(c.separation_speed, d.separation_speed * v) || !same(c.impulse, d.impulse * m * v) ||
         !same(c.energy_lost, d.energy_lost * m * v * v))
 
-      return "record " + std::to_string(k) + " of " + std::to_string(n) + ", at t = " + text(c.time) + " and " +
-             text(d.time * t) + " between " + std::to_string(c.a) + " and " + std::to_string(c.b) + " or " +
-             std::to_string(d.a) + " and " + std::to_string(d.b);
+      return "record " + to_string(k) + " of " + to_string(n) + ", at t = " + text(c.time) + " and " +
+             text(d.time * t) + " between " + to_string(c.a) + " and " + to_string(c.b) + " or " + to_string(d.a) +
+             " and " + to_string(d.b);
   }
 
   if (a.records.size() != b.records.size())
-    return std::to_string(a.records.size()) + " records and " + std::to_string(b.records.size());
+    return to_string(a.records.size()) + " records and " + to_string(b.records.size());
   if (!a.error.empty()) return {};
 
   for (size_t i = 0; i < a.end.position.size(); ++i)
     if (!vectors(a.end.position[i], b.end.position[i] * l) || !vectors(a.end.velocity[i], b.end.velocity[i] * v))
-      return "body " + std::to_string(i) + " at the end, though all records are the same";
+      return "body " + to_string(i) + " at the end, though all records are the same";
 
   if (!same(a.tally.energy_lost, b.tally.energy_lost * m * v * v)) return "energy lost";
   if (a.tally.resting != b.tally.resting) return "bodies at rest";

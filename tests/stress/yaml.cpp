@@ -1,5 +1,4 @@
 // A random scene as a scene file.
-#include <cmath>
 
 #include "physics/world.h"
 #include "std.h"
@@ -48,12 +47,12 @@ string text(const Attractor& law) {
 
 /// b0, b1, …, then p, w, o, s for planes, walls, obstacles, strings.
 string name(const World& world, Entity e) {
-  if (world.is_body(e)) return "b" + std::to_string(e);
+  if (world.is_body(e)) return "b" + to_string(e);
   const auto k = e - world.body_count();
-  if (world.is_plane(e)) return "p" + std::to_string(k);
-  if (world.is_wall(e)) return "w" + std::to_string(k - world.planes.size());
-  if (world.is_obstacle(e)) return "o" + std::to_string(k - world.planes.size() - world.walls.size());
-  return "s" + std::to_string(k - world.fixed_count());
+  if (world.is_plane(e)) return "p" + to_string(k);
+  if (world.is_wall(e)) return "w" + to_string(k - world.planes.size());
+  if (world.is_obstacle(e)) return "o" + to_string(k - world.planes.size() - world.walls.size());
+  return "s" + to_string(k - world.fixed_count());
 }
 
 string bodies(const RandomScene& scene) {
@@ -131,7 +130,7 @@ string regions(const World& world) {
   string out = world.regions.empty() ? "" : "regions:\n";
   for (size_t k = 0; k < world.regions.size(); ++k) {
     const WorldRegion& r = world.regions[k];
-    out += "  r" + std::to_string(k) + ": {" +
+    out += "  r" + to_string(k) + ": {" +
            (r.is_side() ? "plane: {point: " + text(r.position) + ", normal: " + text(r.normal) + "}"
                         : text(r.volume) + ", position: " + text(r.position)) +
            on_text(world, r.on) + ", action: " +
@@ -148,7 +147,7 @@ string forces(const World& world) {
   string out = world.forces.empty() ? "" : "forces:\n";
   for (const Force& f : world.forces) {
     out += "  - {" + std::visit([](const auto& law) { return text(law); }, f.law) + ", from: " + text(f.from);
-    if (std::isfinite(f.until)) out += ", until: " + text(f.until);
+    if (isfinite(f.until)) out += ", until: " + text(f.until);
     out += on_text(world, f.on) + "}\n";
   }
   return out;
@@ -172,8 +171,8 @@ string as_yaml(const RandomScene& scene, const string& more) {
   string simulate = "simulate: {duration: " + text(o.duration) + more;
   if (o.rest_speed > 0) simulate += ", rest_speed: " + text(o.rest_speed);
   if (o.merge) simulate += ", contact: merge";
-  if (o.max_collisions > 0) simulate += ", max_collisions: " + std::to_string(o.max_collisions);
-  return "# seed " + std::to_string(scene.seed) + ", family " + scene.family +
+  if (o.max_collisions > 0) simulate += ", max_collisions: " + to_string(o.max_collisions);
+  return "# seed " + to_string(scene.seed) + ", family " + scene.family +
          "\nscene: 1\ngravity: " + text(scene.world.gravity) + "\n" + restitution(scene.world) + bodies(scene) +
          fixed(scene.world) + strings(scene.world) + regions(scene.world) + forces(scene.world) + simulate +
          "}\noutput: {trajectory: {every: " + text(o.duration / 100) +

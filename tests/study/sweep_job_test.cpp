@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
+#include "std.h"
 #include "study/sweep_folders.h"
 
 namespace carom {
@@ -72,12 +71,12 @@ TEST(Shards, HaveEveryRunOnceAndKeepMotionsTogether) {
   const SweepPlace place;
   const string lines = "grid: {balls.red.mass: [1, 2, 3, 4, 5], balls.red.color: ['#ff0000', '#00ff00']}\n";
 
-  std::set<size_t> all;
+  set<size_t> all;
   for (const size_t index : {1, 2, 3}) {
     const Numbers mine = place.planned(lines, {index, 3}).of_part();
     for (const size_t number : mine) EXPECT_TRUE(all.insert(number).second) << number;
     // Two neighbours differ in the colour alone.
-    for (const size_t number : mine) EXPECT_TRUE(std::ranges::count(mine, number ^ 1) == 1) << number;
+    for (const size_t number : mine) EXPECT_TRUE(ranges::count(mine, number ^ 1) == 1) << number;
   }
   EXPECT_EQ(all.size(), 10u);
 }

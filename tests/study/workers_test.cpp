@@ -6,9 +6,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <map>
-#include <stdexcept>
-
 namespace carom {
 namespace {
 
@@ -17,9 +14,9 @@ struct Work {
   function<string(size_t)> work;
   function<void()> stop_check = [] {};
 
-  std::map<size_t, TaskOutcome> go(size_t jobs) const {
+  map<size_t, TaskOutcome> go(size_t jobs) const {
     size_t next = 0;
-    std::map<size_t, TaskOutcome> outcomes;
+    map<size_t, TaskOutcome> outcomes;
     Tasks tasks;
     tasks.next = [&] { return next < count ? optional(next++) : nullopt; };
     tasks.work = work;
@@ -44,7 +41,7 @@ TEST(Workers, DoEveryTaskOnceWhateverTheirNumber) {
 TEST(Workers, TaskThatThrowsFailsAloneWithItsReason) {
   const auto outcomes = Work{
       10, [](size_t task) -> string {
-        if (task == 4) throw std::runtime_error("it is the fourth");
+        if (task == 4) throw runtime_error("it is the fourth");
         return "fine";
       }}.go(2);
   EXPECT_EQ(outcomes.at(4).kind, TaskOutcome::Kind::failed);
@@ -73,9 +70,9 @@ TEST(Workers, StopCheckThatThrowsEndsAllProcesses) {
                     return string();
                   },
                   [&checks] {
-                    if (++checks == 3) throw std::runtime_error("stop");
+                    if (++checks == 3) throw runtime_error("stop");
                   }};
-  EXPECT_THROW(work.go(2), std::runtime_error);
+  EXPECT_THROW(work.go(2), runtime_error);
 }
 
 }  // namespace

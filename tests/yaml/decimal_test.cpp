@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <charconv>
-#include <cmath>
 
 namespace carom {
 namespace {

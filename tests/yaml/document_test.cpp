@@ -7,8 +7,6 @@
 namespace carom {
 namespace {
 
-using Kind = Node::Kind;
-
 TEST(Document, KeepsTheOrderOfKeysAndTheTextsOfScalars) {
   const Parsed file("b: 1e0\na: [x, 0.50]\n");
   ASSERT_TRUE(file.root && file.diagnostics.empty()) << file.errors();
@@ -23,10 +21,10 @@ TEST(Document, KeepsTheOrderOfKeysAndTheTextsOfScalars) {
 TEST(Document, TellsTheKindsOfValuesApart) {
   const Parsed file("n:\ns: word\nl: [1]\nm: {a: 1}\n");
   ASSERT_TRUE(file.root);
-  EXPECT_TRUE(file.root->find("n")->is(Kind::null));
-  EXPECT_TRUE(file.root->find("s")->is(Kind::scalar));
-  EXPECT_TRUE(file.root->find("l")->is(Kind::sequence));
-  EXPECT_TRUE(file.root->find("m")->is(Kind::map));
+  EXPECT_TRUE(file.root->find("n")->is_null());
+  EXPECT_TRUE(file.root->find("s")->is_scalar());
+  EXPECT_TRUE(file.root->find("l")->is_sequence());
+  EXPECT_TRUE(file.root->find("m")->is_map());
 }
 
 TEST(Document, KeepsQuotedTextApartFromPlainText) {
@@ -117,7 +115,7 @@ TEST(Refusal, OfARepeatedKeyKeepsTheFirstAndNamesItsLine) {
 
 TEST(Refusal, FindsARepeatedKeyAmongMany) {
   string text;
-  for (int i = 0; i < 100; ++i) text += "k" + std::to_string(i) + ": 1\n";
+  for (int i = 0; i < 100; ++i) text += "k" + to_string(i) + ": 1\n";
   EXPECT_EQ(Parsed(text + "k7: 2\n").error(), "101:1 `k7` is repeated = it is in line 8 already");
   EXPECT_EQ(Parsed(text + "k99: 2\n").error(), "101:1 `k99` is repeated = it is in line 100 already");
 }
@@ -150,7 +148,7 @@ TEST(Refusal, OfASecondDocumentIsAtItsBeginning) {
 
 TEST(Refusal, StopsAfterTwoHundredErrors) {
   string text;
-  for (int i = 0; i < 300; ++i) text += "k" + std::to_string(i) + ": &a 1\n";
+  for (int i = 0; i < 300; ++i) text += "k" + to_string(i) + ": &a 1\n";
   const Parsed file(text);
   EXPECT_FALSE(file.root);
   EXPECT_EQ(file.diagnostics.count(), 201u);
@@ -159,7 +157,7 @@ TEST(Refusal, StopsAfterTwoHundredErrors) {
 TEST(Document, OfAnEmptyTextIsNull) {
   const Parsed file("# only a comment\n");
   ASSERT_TRUE(file.root);
-  EXPECT_TRUE(file.root->is(Kind::null));
+  EXPECT_TRUE(file.root->is_null());
 }
 
 TEST(Document, OfAnOptionBeginsAtItsOffset) {

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(OtherCase, OfEachPartOfANameIsFound) {
-  const fs::path folder = ::testing::TempDir() + "carom_case_" + std::to_string(getpid());
+  const fs::path folder = ::testing::TempDir() + "carom_case_" + to_string(getpid());
   fs::create_directories(folder / "Textures");
   for (const char* name : {"Textures/wood.png", "Textures/Wood.png", "a.png"}) std::ofstream(folder / name) << "x";
   EXPECT_EQ(name_in_other_case(folder, "textures/WOOD.PNG"), "Textures/Wood.png");

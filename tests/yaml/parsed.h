@@ -22,9 +22,8 @@ struct Parsed {
   /// The only error: "line:column message = remedy".
   string error() const {
     const vector<ErrorRecord> all = diagnostics.records();
-    if (all.size() != 1) return std::to_string(all.size()) + " errors: " + errors();
-    return std::to_string(all[0].line) + ":" + std::to_string(all[0].column) + " " + all[0].message + " = " +
-           all[0].remedy;
+    if (all.size() != 1) return to_string(all.size()) + " errors: " + errors();
+    return to_string(all[0].line) + ":" + to_string(all[0].column) + " " + all[0].message + " = " + all[0].remedy;
   }
 
   /// The text of a value's place.

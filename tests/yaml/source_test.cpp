@@ -22,7 +22,7 @@ struct Read {
   }
   Read(const Read&) = delete;
 
-  string path = testing::TempDir() + "carom_source_" + std::to_string(getpid()) + ".yaml";
+  string path = testing::TempDir() + "carom_source_" + to_string(getpid()) + ".yaml";
   vector<Source> source = vector<Source>(1);
   Diagnostics diagnostics{source};
   bool good = false;
@@ -61,7 +61,7 @@ TEST(ReadSource, SaysWhatAPathIsThatIsNoFile) {
 }
 
 TEST(ReadSource, DoesNotWaitForAPipe) {
-  const string pipe = testing::TempDir() + "carom_pipe_" + std::to_string(getpid());
+  const string pipe = testing::TempDir() + "carom_pipe_" + to_string(getpid());
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(fault_of_path(pipe), "this is not a regular file");
   EXPECT_EQ(why_no_file(pipe), "this is not a regular file:");
@@ -92,7 +92,7 @@ TEST(CheckText, GoesOnAfterTabsBetweenWordsButNotInIndentation) {
 
 TEST(CheckText, CountsTheTabsThatItDoesNotShow) {
   string text;
-  for (int i = 0; i < 13; ++i) text += "k" + std::to_string(i) + ":\t1\n";
+  for (int i = 0; i < 13; ++i) text += "k" + to_string(i) + ":\t1\n";
   const Parsed file(text);
   EXPECT_EQ(file.diagnostics.count(), 11u);
   EXPECT_TRUE(file.errors().starts_with("a.yaml: error: tabs in 3 more lines\n")) << file.errors();

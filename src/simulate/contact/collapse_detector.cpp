@@ -3,8 +3,6 @@
 // counted for each body, over the time of a hop and over the distance that the body moves.
 #include "simulate/contact/collapse_detector.h"
 
-#include <algorithm>
-
 #include "physics/world.h"
 #include "simulate/tolerances.h"
 #include "std.h"

@@ -2,9 +2,6 @@
 // body touches. Level surfaces stay, so that a floor of several pieces carries a body over its seams.
 #include "simulate/contact/contact_list.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "numerics/vanishing_sum.h"
 #include "physics/world.h"
 #include "simulate/contact/exact_bodies.h"

@@ -1,6 +1,5 @@
 #pragma once
 // Contacts of an island: the things that touch, beside the solver's constraints for them.
-#include <algorithm>
 
 #include "geometry/touch.h"
 #include "numerics/disjoint_sets.h"

@@ -2,8 +2,6 @@
 // method's deviation wherever it happens, because contact with things at rest does no work. This part of it is work.
 #include "simulate/contact/contact_work.h"
 
-#include <utility>
-
 #include "simulate/event_log.h"
 #include "std.h"
 

@@ -4,10 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
@@ -53,7 +49,7 @@ bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
 }
 
 void ExactBodies::fail_squeezed(Entity i, vector<Entity> things) const {
-  std::ranges::sort(things);
+  ranges::sort(things);
   things.erase(std::unique(things.begin(), things.end()), things.end());
   vector<string> after = {" has no room left between "};
   for (size_t k = 0; k < things.size(); ++k)
@@ -68,7 +64,7 @@ void ExactBodies::fail_squeezed(Entity i, vector<Entity> things) const {
 vector<Entity> ExactBodies::neighbours_of(Entity i) const {
   const span<const Entity> near = neighbours.near(i);
   vector<Entity> all(near.begin(), near.end());
-  std::ranges::sort(all);
+  ranges::sort(all);
   return all;
 }
 
@@ -113,9 +109,9 @@ bool ExactBodies::is_taut(Entity string) const {
 }
 
 bool ExactBodies::any_taut(span<const Entity> those) const {
-  return ties.any() && std::ranges::any_of(those, [&](Entity i) {
+  return ties.any() && any_of(those, [&](Entity i) {
            const span<const Entity> strings = ties.of(i);
-           return std::ranges::any_of(strings, [&](Entity string) { return is_taut(string); });
+           return any_of(strings, [&](Entity string) { return is_taut(string); });
          });
 }
 
@@ -130,7 +126,7 @@ bool ExactBodies::any_meets(span<const Entity> those) const {
   };
   const auto string_meets = [&](Entity e) { return is_taut(e) && meets(world.string(e).body, e, string_now(e)); };
 
-  return std::ranges::any_of(those, [&](Entity i) {
+  return any_of(those, [&](Entity i) {
     const span<const Entity> strings = ties.of(i);
     const vector<Entity> near = neighbours_of(i);
     const Vec3 x = position(i);
@@ -140,7 +136,7 @@ bool ExactBodies::any_meets(span<const Entity> those) const {
       return there.gap <= contact_gap(i, x, xe) && meets(i, e, there);
     };
 
-    return std::ranges::any_of(strings, string_meets) || std::ranges::any_of(near, neighbour_meets);
+    return any_of(strings, string_meets) || any_of(near, neighbour_meets);
   });
 }
 
@@ -150,11 +146,11 @@ double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {
 }
 
 double ExactBodies::drift_of(Entity i, const Vec3& v, const Vec3& ve) const {
-  return exact_tolerance::drift * (v.norm() + ve.norm() + std::sqrt(applied[i].norm() * world.radius[i]));
+  return exact_tolerance::drift * (v.norm() + ve.norm() + sqrt(applied[i].norm() * world.radius[i]));
 }
 
 double ExactBodies::slow_speed(double press, double length) const {
-  return options.rest_speed > 0 ? options.rest_speed : exact_tolerance::slow_impact * std::sqrt(press * length);
+  return options.rest_speed > 0 ? options.rest_speed : exact_tolerance::slow_impact * sqrt(press * length);
 }
 
 }  // namespace carom

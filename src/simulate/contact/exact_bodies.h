@@ -3,7 +3,6 @@
 //
 // Each body keeps one event, the first of its own. The first of all these is the next event. A predicted collision is a
 // function of the two flights alone. It has the same bits from either side and at any time of prediction.
-#include <algorithm>
 
 #include "geometry/touch.h"
 #include "simulate/contact/contact_work.h"

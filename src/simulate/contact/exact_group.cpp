@@ -4,9 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/contact/collapse_detector.h"
@@ -106,7 +103,7 @@ vector<Entity> ExactGroup::asleep_beside(Entity i) const {
 
   for (const Entity string : bodies_.ties.of(i)) {
     const Entity other = bodies_.ties.other(string, i);
-    if (other == no_entity || bodies_.mode(other) != Mode::asleep || std::ranges::count(asleep, other) > 0) continue;
+    if (other == no_entity || bodies_.mode(other) != Mode::asleep || ranges::count(asleep, other) > 0) continue;
     if (bodies_.world.string(string).rod || bodies_.string_now(string).gap <= near) asleep.push_back(other);
   }
   return asleep;
@@ -247,7 +244,7 @@ double ExactGroup::initial_rounding(Entity string) const {
 }
 
 void ExactGroup::note_parted(Entity a, Entity thing, bool parted) {
-  const std::pair pair(a, thing);
+  const pair pair(a, thing);
   const auto at = std::lower_bound(parted_.begin(), parted_.end(), pair);
   const bool known = at != parted_.end() && *at == pair;
   if (known && !parted) parted_.erase(at);
@@ -267,7 +264,7 @@ void ExactGroup::forget_apart() {
 }
 
 bool ExactGroup::has_parted(Entity a, Entity thing) const {
-  return std::binary_search(parted_.begin(), parted_.end(), std::pair(a, thing));
+  return std::binary_search(parted_.begin(), parted_.end(), pair(a, thing));
 }
 
 bool ExactGroup::strikes(Entity i, Entity e, double approach, double slow, bool apart) const {
@@ -317,15 +314,15 @@ void ExactGroup::forget_forces(Entity i) {
 }
 
 bool ExactGroup::hides(Entity i, Entity fixed) const {
-  return std::ranges::any_of(member[i].floors, [&](const Floor& floor) {
+  return any_of(member[i].floors, [&](const Floor& floor) {
     return bodies_.hidden(i, bodies_.position(i), fixed, floor.normal, floor.velocity);
   });
 }
 
 bool ExactGroup::switches(Entity i) const {
   const auto now = [&](Entity e) { return bodies_.moving.switches(e, bodies_.now); };
-  return std::ranges::any_of(modes_.partners(i), now) ||
-         std::ranges::any_of(pressing[i], [&](const PressingContact& p) { return now(p.partner); });
+  return any_of(modes_.partners(i), now) ||
+         any_of(pressing[i], [&](const PressingContact& p) { return now(p.partner); });
 }
 
 /// The power of the moving things that press on body i (W).

@@ -2,7 +2,6 @@
 // Bodies of the exact simulator in lasting contact with each other or with things that are not flat. Their paths have
 // no closed form. Each island moves in steps of its own: by constrained motion (constrained_motion.h), or as a
 // crowd where contacts change too often (crowd_motion.h). This class holds the data of these bodies.
-#include <utility>
 
 #include "simulate/contact/exact_bodies.h"
 #include "simulate/contact/mode_changes.h"
@@ -117,7 +116,7 @@ class ExactGroup {
   FlatContacts& flat_;
   const CollapseDetector& collapses_;
   PathLog& paths_;
-  vector<std::pair<Entity, Entity>> parted_;  // sorted
+  vector<pair<Entity, Entity>> parted_;  // sorted
   size_t many_parted_ = 64;
 };
 

@@ -3,10 +3,6 @@
 // acceleration. Hops that rounding hides are suppressed, because they would cost events without an effect.
 #include "simulate/contact/flat_contacts.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "numerics/vanishing_sum.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"

@@ -2,9 +2,6 @@
 // Work is booked from the flight as a whole, in closed form where forces are constant.
 #include "simulate/contact/flight_changes.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/contact/flat_contacts.h"

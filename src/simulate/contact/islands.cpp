@@ -3,9 +3,6 @@
 // islands again.
 #include "simulate/contact/islands.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "std.h"
 
 namespace carom {
@@ -71,7 +68,7 @@ void Islands::retain(Entity member, vector<Entity> stay) {
 
 vector<Entity> Islands::split(Entity i, span<const uint32_t> labels) {
   const uint32_t whole = island_[i];
-  const vector<Entity> members = std::exchange(islands_[whole].members, {});
+  const vector<Entity> members = exchange(islands_[whole].members, {});
   vector<uint32_t> place(members.size());  // by label
   vector<Entity> first;
 

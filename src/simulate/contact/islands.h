@@ -2,7 +2,6 @@
 // Islands of the exact simulator: connected components of awake bodies in lasting contact. Fixed things and sleeping
 // bodies do not connect. Each island moves by itself, in steps of its own. The number and the motion of other islands
 // have no effect on it.
-#include <algorithm>
 #include <deque>
 
 #include "geometry/contact_time.h"

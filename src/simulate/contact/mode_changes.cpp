@@ -1,8 +1,6 @@
 // Every change goes through one function, which counts it. Bodies rest where a thing presses on them.
 #include "simulate/contact/mode_changes.h"
 
-#include <algorithm>
-
 #include "simulate/contact/exact_bodies.h"
 #include "std.h"
 
@@ -45,7 +43,7 @@ void ModeChanges::remove(Entity i) {
 }
 
 bool ModeChanges::are_partners(Entity i, Entity e) const {
-  return std::ranges::find(partners_[i], e) != partners_[i].end();
+  return contains(partners_[i], e);
 }
 
 void ModeChanges::clear_partners(Entity i) {

@@ -1,6 +1,5 @@
 #pragma once
 // Numbers of bodies in a problem of their own, such as a step of an island.
-#include <utility>
 
 #include "numerics/lazy_array.h"
 #include "physics/entity.h"
@@ -24,7 +23,7 @@ class Numbering {
   }
   Numbering(const Numbering&) = delete;
   Numbering& operator=(const Numbering&) = delete;
-  Numbering(Numbering&& other) noexcept : numbers_(other.numbers_), bodies_(std::exchange(other.bodies_, {})) {}
+  Numbering(Numbering&& other) noexcept : numbers_(other.numbers_), bodies_(exchange(other.bodies_, {})) {}
   Numbering& operator=(Numbering&&) = delete;
   ~Numbering() {
     for (const Entity i : bodies_) numbers_->write(i) = none;

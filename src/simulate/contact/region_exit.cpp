@@ -3,9 +3,6 @@
 // too early, but not too late.
 #include "simulate/contact/region_exit.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "std.h"
 
 namespace carom {
@@ -26,7 +23,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
     const double outward = off.dot(v);
     const double left = radius * radius - off.squaredNorm();
     if (!(left > 0)) return 0.0;
-    const double root = std::sqrt(outward * outward + speed2 * left);
+    const double root = sqrt(outward * outward + speed2 * left);
     return outward > 0 ? left / (root + outward) : speed2 > 0 ? (root - outward) / speed2 : never;
   };
 
@@ -62,7 +59,7 @@ double region_exit(const ExactBodies& bodies, Entity i) {
       const double narrowed = room - 0.5 * size * straight * straight;
       const double left = room - off.norm();
       if (!(left > 0)) return 0.0;
-      const double surely = 2 * left / (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * left));
+      const double surely = 2 * left / (v.norm() + sqrt(v.squaredNorm() + 2 * size * left));
       return narrowed > 0 ? max(surely, straight_exit(off, v, narrowed)) : surely;
     };
 
@@ -87,8 +84,8 @@ span<const Entity> renew_region(ExactBodies& bodies, Entity i, double until) {
   double half = 0.5 * max(min(until, bodies.options.duration) - bodies.now.hi, 0.0);
   if (const double a2 = f.a.squaredNorm(); a2 > 0) {
     const Vec3 v = f.velocity(since);
-    const double size = std::sqrt(a2);
-    half = min(half, (v.norm() + std::sqrt(v.squaredNorm() + 2 * size * bodies.neighbours.room(i))) / size);
+    const double size = sqrt(a2);
+    half = min(half, (v.norm() + sqrt(v.squaredNorm() + 2 * size * bodies.neighbours.room(i))) / size);
   }
 
   const Vec3 here = f.position(since);

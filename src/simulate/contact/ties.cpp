@@ -1,8 +1,6 @@
 // The lists of strings by body. They are made only where a world has strings.
 #include "simulate/contact/ties.h"
 
-#include <algorithm>
-
 #include "std.h"
 
 namespace carom {

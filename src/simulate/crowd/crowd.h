@@ -1,7 +1,6 @@
 #pragma once
 // The state of a crowd: an island with contacts that change too often to be followed one by one. It moves in
 // synchronous leapfrog steps. From the step's start on, bodies drift at the velocity of the step's middle.
-#include <algorithm>
 
 #include "geometry/contact_time.h"
 #include "numerics/vec3.h"
@@ -98,7 +97,7 @@ struct Crowd {
   uint32_t movable() const { return uint32_t(members.size()); }
   /// Whether these are its members. They must be ascending.
   bool is_of(span<const Entity> entities) const {
-    return std::ranges::equal(entities, by_name, {}, {}, [&](uint32_t k) { return members[k]; });
+    return ranges::equal(entities, by_name, {}, {}, [&](uint32_t k) { return members[k]; });
   }
   Vec3 position(size_t k) const { return {x[k].at[0], x[k].at[1], x[k].at[2]}; }
   Vec3 drift(size_t k) const { return {v[k].at[0], v[k].at[1], v[k].at[2]}; }

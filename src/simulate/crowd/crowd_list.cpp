@@ -2,9 +2,6 @@
 // list reaches. What is measured in each step is the gap along a normal whose half space contains the other body.
 #include "simulate/crowd/crowd_list.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/contact/contact_list.h"
@@ -137,7 +134,7 @@ void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& 
     const double squared = (xe - x).squaredNorm();
     if (squared >= (sizes + within) * (sizes + within)) continue;
     const bool balls = ball && (world.volume.empty() || world.volume[e].shape == Shape::sphere);
-    const double gap = balls ? std::sqrt(squared) - sizes : touch(world, i, x, e, xe).gap;
+    const double gap = balls ? sqrt(squared) - sizes : touch(world, i, x, e, xe).gap;
     if (gap < within) add(b, e, balls, gap);
   }
 

@@ -4,8 +4,6 @@
 // members where a step is cut short. Both keep the step a leapfrog.
 #include "simulate/crowd/crowd_motion.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "numerics/disjoint_sets.h"
@@ -112,7 +110,7 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
     return 0.5 * world.mass[crowd.members[k]] * crowd.velocity(k, age).squaredNorm() - work_on(crowd, k, since);
   });
   gain -= crowd.step.kinetic;
-  const ptrdiff_t pressed = std::ranges::count(crowd.pressed, 1);
+  const ptrdiff_t pressed = ranges::count(crowd.pressed, 1);
   bodies_.log.add_stepped_contact(since * double(pressed));
 
   // Things that move push a against the normal. Velocities of the step's ends have parts of two steps' forces.
@@ -163,7 +161,7 @@ void CrowdMotion::free_flights(Crowd& crowd) const {
 
 /// The crowd of all members of an island, at present.
 Crowd& CrowdMotion::gather(Island& island) {
-  std::ranges::sort(island.members);
+  ranges::sort(island.members);
   if (island.crowds.size() == 1 && island.crowds[0].use_count() == 1 && island.crowds[0]->step.valid &&
       island.crowds[0]->is_of(island.members))
     return *island.crowds[0];
@@ -270,7 +268,7 @@ void CrowdMotion::renew_forces(Crowd& crowd) const {
 double CrowdMotion::longest_step(const Crowd& crowd) const {
   const double fastest = greatest(crowd.v);
   double length = fastest > 0 ? quality_.displacement * crowd.smallest / fastest : never;
-  if (crowd.load > 0) length = min(length, quality_.longest_step * std::sqrt(2 * crowd.smallest / crowd.load));
+  if (crowd.load > 0) length = min(length, quality_.longest_step * sqrt(2 * crowd.smallest / crowd.load));
   if (bodies_.varying)
     for (size_t k = 0; k < crowd.members.size(); ++k)
       if (const Entity i = crowd.members[k]; bodies_.bent[i]) {
@@ -285,7 +283,7 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
 bool CrowdMotion::take_guests(Entity i) {
   const shared_ptr<Crowd> crowd = bodies_.islands.of(i).crowds.front();
   CrowdReach& list = crowd->list;
-  vector<Entity> near = std::exchange(bodies_.islands.of(i).watched, {});
+  vector<Entity> near = exchange(bodies_.islands.of(i).watched, {});
   const double length = crowd->step.length;
   const double need = max(list.need, length * (greatest(crowd->v) + 0.5 * length * crowd->load));
 
@@ -354,7 +352,7 @@ vector<Entity> CrowdMotion::choose_guests(Crowd& crowd, span<const Entity> near)
     if (outlook == CrowdList::Outlook::may_strike || outlook == CrowdList::Outlook::may_come)
       crowd.list.coming.push_back(e);
   }
-  std::ranges::sort(guests);
+  ranges::sort(guests);
   return guests;
 }
 
@@ -372,7 +370,7 @@ bool CrowdMotion::let_go(Crowd& crowd) {
   const auto is_near = [&](size_t k) {
     const Entity i = crowd.members[k];
     const Vec3 x = crowd.position(k);
-    return std::ranges::any_of(bodies_.neighbours.bodies(i), [&](Entity e) {
+    return any_of(bodies_.neighbours.bodies(i), [&](Entity e) {
       const double sizes = bodies_.world.radius[i] + bodies_.world.radius[e];
       return (bodies_.position(e) - x).norm() < sizes + crowd.list.room - crowd.list.gone &&
              is_member(bodies_.mode(e)) && bodies_.islands.same(i, e);

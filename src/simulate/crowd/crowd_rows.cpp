@@ -2,7 +2,6 @@
 // other rows have groups of their own.
 #include "simulate/crowd/crowd_rows.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "std.h"

@@ -3,8 +3,6 @@
 //
 // Groups of rows follow one another in colours. Rows of one colour share no body, so that their order has no effect.
 // What every sweep reads lies apart from what is read once in a step.
-#include <algorithm>
-#include <cmath>
 
 #include "numerics/vec3.h"
 #include "physics/entity.h"
@@ -30,7 +28,7 @@ inline void add(Four& four, const Vec3& change) {
 inline double greatest(const vector<Four>& all) {
   double squared = 0;
   for (const Four& each : all) squared = max(squared, vector_of(each).squaredNorm());
-  return std::sqrt(squared);
+  return sqrt(squared);
 }
 
 /// Four rows, as a sweep reads them. Unit normals point from a to b. `base` + h u is what may not become negative, with

@@ -2,11 +2,8 @@
 // would have it on the other side.
 #include "simulate/crowd/crowd_slabs.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <tuple>
-#include <utility>
 
 #include "simulate/tolerances.h"
 #include "std.h"
@@ -64,7 +61,7 @@ size_t count_of_slabs(const Crowd& crowd, double extent, double beyond_radii) {
 vector<double> cuts_between(vector<double> at, size_t count) {
   vector<double> cuts;
   const size_t n = at.size();
-  std::ranges::sort(at);
+  ranges::sort(at);
   for (size_t k = 1; k < count; ++k) {
     const size_t rank = 2 * k <= count ? k * n / count : n - (count - k) * n / count;
     // The middle one of an odd number of members is on the cut.
@@ -125,7 +122,7 @@ void arrange_in_slabs(Crowd& crowd, double beyond_radii) {
   vector<uint32_t> order(n);
   for (uint32_t& k : crowd.by_name) {
     const uint32_t number = next[place[k]]++;
-    order[number] = std::exchange(k, number);
+    order[number] = exchange(k, number);
   }
 
   // All data of members follow.
@@ -157,7 +154,7 @@ vector<vector<CrowdRows::Pair>> pairs_of_parts(const CrowdRows& rows, span<const
     return std::tuple(left.name.a, left.name.e) < std::tuple(right.name.a, right.name.e);
   };
   for (vector<CrowdRows::Pair>& part : of_part)
-    if (!std::is_sorted(part.begin(), part.end(), before)) std::ranges::sort(part, before);
+    if (!std::is_sorted(part.begin(), part.end(), before)) ranges::sort(part, before);
   return of_part;
 }
 

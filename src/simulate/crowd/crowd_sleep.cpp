@@ -2,10 +2,6 @@
 // bodies to rest instead, as their steps tremble.
 #include "simulate/crowd/crowd_sleep.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "numerics/disjoint_sets.h"
 #include "physics/world.h"
 #include "simulate/contact/exact_group.h"
@@ -19,7 +15,7 @@ namespace carom {
 namespace tol = exact_tolerance;
 
 void CrowdSleep::wake_pressed(Crowd& crowd) {
-  vector<RowName> pressed = std::exchange(crowd.struck, {});
+  vector<RowName> pressed = exchange(crowd.struck, {});
   crowd.rows.for_each([&](size_t g, size_t lane) {
     if (crowd.presses_on_sleeper(g, lane, bodies_.world)) pressed.push_back(crowd.rows.names[g][lane]);
   });
@@ -33,7 +29,7 @@ void CrowdSleep::wake_pressed(Crowd& crowd) {
 /// By member: whether it is to rest. All are if all hardly move. A part of a crowd must have done so for a while, with
 /// all that press on one another in it: what moves may be about to press on it.
 vector<uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
-  const double limit = tol::standstill * std::sqrt(crowd.load * crowd.smallest);  // m/s
+  const double limit = tol::standstill * sqrt(crowd.load * crowd.smallest);  // m/s
   const auto moves = [&](size_t k) { return !(crowd.load > 0) || crowd.drift(k).norm() > limit; };
   const auto count = uint32_t(crowd.members.size());
   bool all = true;
@@ -56,23 +52,22 @@ vector<uint8_t> CrowdSleep::slow_members(Crowd& crowd) const {
   }
 
   // The few that rest among others that move would wake soon.
-  if (2 * std::ranges::count(rests, 1) < ptrdiff_t(count)) std::ranges::fill(rests, 0);
+  if (2 * ranges::count(rests, 1) < ptrdiff_t(count)) ranges::fill(rests, 0);
   return rests;
 }
 
 /// Whether the crowd has been slow as a whole for a while, and something has pressed on each of its members.
 bool CrowdSleep::has_settled(Crowd& crowd) const {
-  const double limit = tol::slow_preview * std::sqrt(crowd.load * crowd.smallest);  // m/s
+  const double limit = tol::slow_preview * sqrt(crowd.load * crowd.smallest);  // m/s
   const double squares = crowd.sum([&](size_t k) { return crowd.drift(k).squaredNorm(); });
-  const bool carried =
-      crowd.load > 0 && std::ranges::all_of(crowd.idle, [](uint8_t steps) { return steps <= tol::idle_steps; });
+  const bool carried = crowd.load > 0 && all_of(crowd.idle, [](uint8_t steps) { return steps <= tol::idle_steps; });
 
   if (!carried || squares > limit * limit * double(crowd.members.size())) {
     crowd.rest.slow_since = {never, 0};
     return false;
   }
   if (bodies_.now < crowd.rest.slow_since) crowd.rest.slow_since = bodies_.now;
-  return bodies_.now - crowd.rest.slow_since >= tol::slow_for * std::sqrt(2 * crowd.smallest / crowd.load);
+  return bodies_.now - crowd.rest.slow_since >= tol::slow_for * sqrt(2 * crowd.smallest / crowd.load);
 }
 
 /// The pairs that touch, of the members that are to rest, with their present forces (N).
@@ -112,7 +107,7 @@ bool CrowdSleep::solve_rest(const Crowd& crowd, Holding& holding) {
   const ContactProblem problem{inverse_mass, motion, holding.pairs, true};
   if (holding.members.size() <= tol::exact_members || !hold_by_sweeps(crowd, holding, problem))
     bodies_.log.note(carom::solve(problem));
-  return std::ranges::all_of(motion, [&](const Vec3& left) { return left.norm() <= tol::balance * crowd.load; });
+  return all_of(motion, [&](const Vec3& left) { return left.norm() <= tol::balance * crowd.load; });
 }
 
 /// The same by sweeps from the present forces, as in a step of 1 s from rest, and a last correction. In a large heap
@@ -126,9 +121,9 @@ bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const Cont
   // Only the pairs that touch.
   CrowdRows rows = crowd.rows;
   for (size_t g = 0; g < rows.groups(); ++g) {
-    std::ranges::fill(rows.hot[g].base, never);
-    std::ranges::fill(rows.hot[g].impulse, 0.0);
-    std::ranges::fill(rows.change[g].slack, never);
+    ranges::fill(rows.hot[g].base, never);
+    ranges::fill(rows.hot[g].impulse, 0.0);
+    ranges::fill(rows.change[g].slack, never);
   }
   for (size_t c = 0; c < holding.pairs.size(); ++c) {
     const auto& [g, lane] = holding.rows[c];
@@ -145,7 +140,7 @@ bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const Cont
   for (size_t c = 0; c < holding.pairs.size(); ++c)
     holding.pairs[c].force = rows.hot[holding.rows[c].group].impulse[holding.rows[c].lane];
   const auto moves = [&](uint32_t k) { return vector_of(v[k]).norm() > tol::nearly_balanced * crowd.load; };
-  if (std::ranges::any_of(holding.members, moves))
+  if (any_of(holding.members, moves))
     for (size_t m = 0; m < holding.members.size(); ++m) problem.motion[m] = vector_of(v[holding.members[m]]);
   else
     correct_hold(problem);
@@ -173,7 +168,7 @@ bool CrowdSleep::falls_asleep(Crowd& crowd) {
 
   vector<uint8_t> rests(crowd.members.size(), 1);
   if (!quality_.rests_by_speed) rests = slow_members(crowd);
-  if (quality_.rests_by_speed ? !has_settled(crowd) : std::ranges::none_of(rests, std::identity())) return false;
+  if (quality_.rests_by_speed ? !has_settled(crowd) : none_of(rests, std::identity())) return false;
 
   Holding holding = touching(crowd, rests);
   if (!quality_.rests_by_speed && !solve_rest(crowd, holding)) {

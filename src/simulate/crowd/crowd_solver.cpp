@@ -2,7 +2,6 @@
 // needs two to six times as many passes over the rows at the accuracy of a step.
 #include "simulate/crowd/crowd_solver.h"
 
-#include <algorithm>
 #include <atomic>
 
 #include "std.h"
@@ -47,7 +46,7 @@ void CrowdSolver::turn(CrowdRows& rows, vector<Four>& v, size_t part, double bet
     return;
   }
 
-  for (const uint32_t k : which_[part]) std::ranges::fill(rows.change[k].direction, 0.0);
+  for (const uint32_t k : which_[part]) ranges::fill(rows.change[k].direction, 0.0);
   std::copy_n(v.data() + first, count, before_.data() + first);
   std::fill_n(direction_.data() + first, count, Four{});
 }
@@ -61,7 +60,7 @@ SweepResult CrowdSolver::sweep(CrowdRows& rows, vector<Four>& v, double length, 
     found[p] = kernels_.sweep(rows.hot.data(), rows.change.data(), which_[p], v.data(), length);
   });
   return {rows.sum([&](size_t p) { return found[p].change; }),
-          std::ranges::any_of(found, [](const SweepResult& of) { return of.is_short; })};
+          any_of(found, [](const SweepResult& of) { return of.is_short; })};
 }
 
 SweepResult CrowdSolver::hold(CrowdRows& rows, vector<Four>& v, const Goal& goal) {

@@ -2,9 +2,6 @@
 // approach as if by a steady force: both are impulses of one instant.
 #include "simulate/crowd/crowd_steps.h"
 
-#include <algorithm>
-#include <utility>
-
 #include "physics/impact.h"
 #include "physics/world.h"
 #include "simulate/tolerances.h"
@@ -64,7 +61,7 @@ double CrowdSteps::longest(const Crowd& crowd) const {
 /// as slow at every length of a step.
 double CrowdSteps::return_of_step(const Crowd& crowd) const {
   if (crowd.load == 0) return quality_.displacement;
-  return min(1.0, crowd.step.length / std::sqrt(2 * crowd.smallest / crowd.load));
+  return min(1.0, crowd.step.length / sqrt(2 * crowd.smallest / crowd.load));
 }
 
 /// Whether missing gaps return in this step. It costs energy, of which contacts must have taken more. Where bodies just
@@ -167,7 +164,7 @@ void CrowdSteps::book(const Strikes& strikes) const {
 
 /// Whether a row with a sleeping body has an impulse. It is to wake.
 bool CrowdSteps::presses_on_sleepers(const Crowd& crowd) const {
-  if (std::ranges::none_of(crowd.things, [&](Entity e) { return bodies_.world.is_body(e); })) return false;
+  if (none_of(crowd.things, [&](Entity e) { return bodies_.world.is_body(e); })) return false;
   bool any = false;
   crowd.rows.for_each([&](size_t g, size_t lane) { any = any || crowd.presses_on_sleeper(g, lane, bodies_.world); });
   return any;
@@ -178,8 +175,8 @@ bool CrowdSteps::presses_on_sleepers(const Crowd& crowd) const {
 void CrowdSteps::restart_if_short(Crowd& crowd) const {
   if (!(crowd.step.length < tol::restart * crowd.step.last_length)) return;
   std::copy_n(now_.begin(), crowd.members.size(), crowd.v.begin());
-  std::ranges::fill(crowd.lag, 0);
-  std::ranges::fill(crowd.lent, 0);
+  ranges::fill(crowd.lag, 0);
+  ranges::fill(crowd.lent, 0);
 }
 
 /// The impact of one row.
@@ -209,7 +206,7 @@ void CrowdSteps::strike(Crowd& crowd, size_t group, size_t lane, Strikes& strike
 double CrowdSteps::push(Crowd& crowd, size_t group, size_t lane, double impulse, vector<Four>& drifts) {
   const RowGroup& row = crowd.rows.hot[group];
   const Vec3 normal = crowd.rows.normal(group, lane);
-  for (const auto& [k, sign] : {std::pair{row.a[lane], -1.0}, std::pair{row.b[lane], 1.0}}) {
+  for (const auto& [k, sign] : {pair{row.a[lane], -1.0}, pair{row.b[lane], 1.0}}) {
     if (k >= crowd.movable()) continue;
     const Vec3 change = sign * impulse / bodies_.world.mass[crowd.members[k]] * normal;
     add(now_[k], change);
@@ -294,16 +291,16 @@ double CrowdSteps::speed_in_contact(const Crowd& crowd) {
   size_t pressing = 0;
   for (const Agitation& of : found) pressing += of.pressing;
   const double squares = rows.sum([&](size_t p) { return found[p].squares; });
-  return pressing > 0 ? std::sqrt(squares / double(pressing)) : 0;
+  return pressing > 0 ? sqrt(squares / double(pressing)) : 0;
 }
 
 /// What forces may leave, and how often they are improved.
 CrowdSolver::Goal CrowdSteps::goal(const Crowd& crowd) const {
-  const auto bodies = double(max(std::ranges::count(crowd.pressed, 1), ptrdiff_t{1}));
+  const auto bodies = double(max(ranges::count(crowd.pressed, 1), ptrdiff_t{1}));
   const double gained = crowd.load * crowd.step.length;
   const double rounding = tol::gap_rounding * max(gained, greatest(before_));
   // Slower bodies rest by the contact solver's forces.
-  const double still = tol::tremor * std::sqrt(crowd.load * crowd.smallest);
+  const double still = tol::tremor * sqrt(crowd.load * crowd.smallest);
   const double speed = max(crowd.step.speed, still);
   const double left =
       quality_.accuracy * max(min(gained, tol::force_of_speed * speed), tol::least_force * speed) + rounding;
@@ -370,7 +367,7 @@ double CrowdSteps::safe_length(const Crowd& crowd) {
     found[p] = kernels_.safe_drift(crowd.rows.hot.data() + begin, crowd.rows.state.data() + begin, end - begin,
                                    crowd.v.data(), allowed);
   });
-  return std::ranges::min(found);
+  return ranges::min(found);
 }
 
 /// The same impulses by the contact solver, where sweeps converge too slowly: masses are unequal, or bodies are jammed.
@@ -482,7 +479,7 @@ void CrowdSteps::finish(Crowd& crowd) {
   crowd.step.waits = max(crowd.step.waits - 1, 0);
   bodies_.log.count_crowd_step(crowd.step.solved);
   absorb_approaches(crowd);
-  std::ranges::fill(crowd.pressed, 0);
+  ranges::fill(crowd.pressed, 0);
   threads_.in_phases(crowd.rows, [&](size_t p) { find_forces(crowd, p); });
 
   for (size_t k = 0; k < crowd.members.size(); ++k) {

@@ -1,6 +1,5 @@
 #pragma once
 // The parts of a crowd by several threads. What they do does not depend on the number of threads.
-#include <algorithm>
 #include <chrono>
 
 #include "numerics/team.h"

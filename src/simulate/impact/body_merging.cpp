@@ -4,8 +4,6 @@
 // overlapping bodies merge too.
 #include "simulate/impact/body_merging.h"
 
-#include <algorithm>
-
 #include "physics/impact.h"
 #include "physics/world.h"
 #include "simulate/contact/exact_group.h"

@@ -2,8 +2,6 @@
 // (physics/impact.h). Where an impact ends in lasting contact, the bodies join an island instead of bouncing for ever.
 #include "simulate/impact/exact_impacts.h"
 
-#include <algorithm>
-
 #include "physics/impact.h"
 #include "physics/restitution.h"
 #include "physics/world.h"

@@ -2,9 +2,6 @@
 // bodies then join an island instead of bouncing for ever.
 #include "simulate/impact/impact_rules.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/contact/collapse_detector.h"

@@ -3,8 +3,6 @@
 // rounded once, so that a mirror image has the same bits but for rare roundings.
 #include "simulate/impact/impact_set.h"
 
-#include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <tuple>
 
@@ -101,7 +99,7 @@ bool ImpactSet::before(uint32_t c, uint32_t d) const {
 }
 
 void ImpactSet::sort(Rows& rows) const {
-  std::ranges::sort(rows, [this](uint32_t c, uint32_t d) { return before(c, d); });
+  ranges::sort(rows, [this](uint32_t c, uint32_t d) { return before(c, d); });
 }
 
 /// The links that hold and are connected with these rows, directly or through other links.
@@ -114,7 +112,7 @@ ImpactSet::Rows ImpactSet::links_at(span<const uint32_t> rows) const {
     for (const uint32_t body : {rows_[todo[k]].a, rows_[todo[k]].b}) {
       if (body == fixed) continue;
       for (const uint32_t d : bodies_[body].rows) {
-        if (!rows_[d].holds || std::ranges::find(links, d) != links.end()) continue;
+        if (!rows_[d].holds || contains(links, d)) continue;
         links.push_back(d);
         todo.push_back(d);
       }
@@ -123,7 +121,7 @@ ImpactSet::Rows ImpactSet::links_at(span<const uint32_t> rows) const {
 }
 
 size_t ImpactSet::Projection::place_of(uint32_t body) const {
-  return size_t(std::ranges::find(bodies, body) - bodies.begin());
+  return size_t(ranges::find(bodies, body) - bodies.begin());
 }
 
 vector<Vec3> ImpactSet::velocities() const {
@@ -158,7 +156,7 @@ ImpactSet::Projection ImpactSet::project(Rows rows, span<const uint32_t> links, 
   for (const uint32_t c : order) {
     const RowState& r = rows_[c];
     ContactConstraint constraint{0, fixed, r.normal};
-    const bool turned = r.b != fixed && std::tie(r.normal.x(), r.normal.y(), r.normal.z()) < std::tuple(0.0, 0.0, 0.0);
+    const bool turned = r.b != fixed && tie(r.normal.x(), r.normal.y(), r.normal.z()) < std::tuple(0.0, 0.0, 0.0);
     if (turned) constraint.normal = -r.normal;
     constraint.a = place(turned ? r.b : r.a);
     if (r.b != fixed) constraint.b = place(turned ? r.a : r.b);
@@ -189,7 +187,7 @@ ImpactSet::Projection ImpactSet::response(uint32_t c, span<const uint32_t> links
   const Row& r = rows_[c];
   Projection p;
   const auto place = [&](uint32_t body) {
-    const auto it = std::ranges::find(p.bodies, body);
+    const auto it = ranges::find(p.bodies, body);
     if (it != p.bodies.end()) return uint32_t(it - p.bodies.begin());
     p.bodies.push_back(body);
     return uint32_t(p.bodies.size() - 1);
@@ -235,14 +233,14 @@ double ImpactSet::cosine(uint32_t c, uint32_t d, const Projection* response) con
   }
 
   const auto change = [&](uint32_t body) {
-    const auto it = std::ranges::find(response->bodies, body);
+    const auto it = ranges::find(response->bodies, body);
     return it == response->bodies.end() ? Vec3(Vec3::Zero()) : response->v[size_t(it - response->bodies.begin())];
   };
   const auto opens = [&](const Row& r) {
     return r.normal.dot((r.b == fixed ? Vec3(Vec3::Zero()) : change(r.b)) - change(r.a));
   };
   const auto inverse = [&](const Row& r) { return 1 / bodies_[r.a].mass + (r.b == fixed ? 0 : 1 / bodies_[r.b].mass); };
-  return opens(q) / std::sqrt(inverse(p) * inverse(q));
+  return opens(q) / sqrt(inverse(p) * inverse(q));
 }
 
 /// Whether row c waits for a faster one that pushes a body of it from the other side.
@@ -331,7 +329,7 @@ const vector<ImpactSet::Impact>& ImpactSet::strike(span<const uint32_t> approach
   const auto inelastic = [&](uint32_t c) { return rows_[c].restitution == 0; };
 
   for (const Together& set : connect(acting, true)) {
-    if (std::ranges::all_of(set.rows, inelastic)) {
+    if (all_of(set.rows, inelastic)) {
       strike_together(set);
       continue;
     }
@@ -354,7 +352,7 @@ const vector<ImpactSet::Impact>& ImpactSet::strike(span<const uint32_t> approach
 
 void ImpactSet::strike_together(const Together& set) {
   if (set.rows.size() == 1 && set.open.empty() && set.links.empty()) return strike_one(set.rows.front());
-  const bool inelastic = std::ranges::all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == 0; });
+  const bool inelastic = all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == 0; });
   inelastic ? strike_inelastic(set) : strike_elastic(set);
 }
 
@@ -454,7 +452,7 @@ double ImpactSet::allowed_share(const Projection& compressed, const vector<Vec3>
     took += twice_energy(of.mass, of.v - compressed.v[k]);
     back += twice_energy(of.mass, dv[k]);
   }
-  return back > took ? std::sqrt(took / back) : 1;
+  return back > took ? sqrt(took / back) : 1;
 }
 
 /// One e for all: the velocities after an expansion that repeats e times what compression has changed. The shares of
@@ -479,7 +477,7 @@ vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compr
   // Links that are still tight answer to it.
   if (!set.links.empty()) {
     Rows tight;
-    std::ranges::copy_if(set.links, std::back_inserter(tight), [&](uint32_t c) { return rows_[c].holds; });
+    ranges::copy_if(set.links, std::back_inserter(tight), [&](uint32_t c) { return rows_[c].holds; });
     vector<Vec3> all(bodies_.size(), Vec3::Zero());
     for (size_t k = 0; k < dv.size(); ++k) all[compressed.bodies[k]] = dv[k];
 
@@ -489,7 +487,7 @@ vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compr
   }
 
   // With e above 1 energy may be made.
-  const bool limited = std::ranges::all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution <= 1; });
+  const bool limited = all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution <= 1; });
   share = limited ? allowed_share(compressed, dv) : 1;
 
   // The velocities are rounded once where links and limits have not changed the sums.
@@ -511,7 +509,7 @@ void ImpactSet::strike_elastic(const Together& set) {
   slacken(set.links, compressed);
 
   const double first_e = rows_[set.rows.front()].restitution;
-  const bool one = std::ranges::all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == first_e; });
+  const bool one = all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == first_e; });
   double share = 1;
   const vector<Vec3> after = one ? expand_alike(compressed, first_e) : expand_each(set, compressed, share);
   for (size_t k = 0; k < after.size(); ++k) change(compressed.bodies[k], after[k]);
@@ -589,8 +587,8 @@ void ImpactSet::close_parted() {
 }
 
 /// The rows that can be struck, and the links that hold.
-std::pair<ImpactSet::Rows, ImpactSet::Rows> ImpactSet::touching_and_links() const {
-  std::pair<Rows, Rows> rows;
+pair<ImpactSet::Rows, ImpactSet::Rows> ImpactSet::touching_and_links() const {
+  pair<Rows, Rows> rows;
   for (uint32_t c = 0; c < rows_.size(); ++c) (rows_[c].holds ? rows.second : rows.first).push_back(c);
   return rows;
 }
@@ -608,7 +606,7 @@ bool ImpactSet::has_room(const Rows& rows, const Rows& links) const {
 /// The limit of endless rounds: the projection of the present velocities on all rows.
 ImpactSet::Limit ImpactSet::find_limit() {
   Limit limit;
-  std::tie(limit.touching, limit.links) = touching_and_links();
+  tie(limit.touching, limit.links) = touching_and_links();
   limit.reached = project(limit.touching, limit.links, velocities());
   certificate_.merge(limit.reached.certificate);
 
@@ -638,11 +636,11 @@ const vector<ImpactSet::Impact>& ImpactSet::end_endless(span<const uint32_t> app
   const Limit limit = find_limit();
 
   // Whether it is that of the last look.
-  const auto pressing = double(std::ranges::count_if(limit.reached.impulse, [](double j) { return j > 0; }));
+  const auto pressing = double(ranges::count_if(limit.reached.impulse, [](double j) { return j > 0; }));
   const bool known = endless_.limit.size() == limit.v.size();
   const bool same = known && distance(endless_.limit, limit.v) <= tol::same_limit * tol::same_limit * limit.greatest;
-  const bool elastic = std::ranges::any_of(approaching, [&](uint32_t c) { return rows_[c].restitution == 1; });
-  const bool worn = std::ranges::any_of(approaching, [&](uint32_t c) {
+  const bool elastic = any_of(approaching, [&](uint32_t c) { return rows_[c].restitution == 1; });
+  const bool worn = any_of(approaching, [&](uint32_t c) {
     const Row& r = rows_[c];
     return bodies_[r.a].lost > tol::worn_out || (r.b != fixed && bodies_[r.b].lost > tol::worn_out);
   });
@@ -652,7 +650,7 @@ const vector<ImpactSet::Impact>& ImpactSet::end_endless(span<const uint32_t> app
   // Only rows that strike again and again need room. All of them have struck since the last look.
   if (!over && elastic) {
     Rows again;
-    std::ranges::copy_if(limit.touching, std::back_inserter(again), [&](uint32_t c) { return rows_[c].struck; });
+    ranges::copy_if(limit.touching, std::back_inserter(again), [&](uint32_t c) { return rows_[c].struck; });
     over = endless_.without_room = !has_room(again, limit.links);
   }
   for (RowState& r : rows_) r.struck = false;

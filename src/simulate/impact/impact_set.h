@@ -18,7 +18,6 @@
 // Tamstorf & Grinspun, "All's well that ends well", ACM Trans. Graph. 36, 2017); else the same projection ends them.
 //
 // Rows are taken in an order of places, so that no number of a body or a row has an effect.
-#include <utility>
 
 #include "numerics/compensated.h"
 #include "numerics/vec3.h"
@@ -188,7 +187,7 @@ class ImpactSet {
   void note(uint32_t c, double impulse, double approach, double separation);
   void share_losses(const Rows& bodies, size_t first);
   void count();
-  std::pair<Rows, Rows> touching_and_links() const;
+  pair<Rows, Rows> touching_and_links() const;
   bool has_room(const Rows& rows, const Rows& links) const;
   double distance(const vector<Vec3>& from, const vector<Vec3>& to) const;
   Limit find_limit();

@@ -2,9 +2,6 @@
 // decided before each round, from the velocities that it meets (impact_rules.h).
 #include "simulate/impact/instant_impacts.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/contact_time.h"
 #include "physics/impact.h"
 #include "physics/state.h"
@@ -27,7 +24,7 @@ double InstantImpacts::close_times(const State& initial) const {
   for (const Vec3& x : initial.position) extent = max(extent, x.cwiseAbs().sum());
   for (const Vec3& v : initial.velocity) fastest = max(fastest, v.norm());
   for (const double radius : bodies_.world.radius) extent = max(extent, radius);
-  fastest = max(fastest, std::sqrt(bodies_.world.gravity.norm() * extent));
+  fastest = max(fastest, sqrt(bodies_.world.gravity.norm() * extent));
   return tol::tie_of_places * (fastest > 0 ? extent / fastest : bodies_.options.duration);
 }
 
@@ -43,7 +40,7 @@ bool InstantImpacts::strike(const Due& due) {
   // impacts of two have no end, and with e = 0 what touches stays closed.
   const Touching& first = now.touching.front();
   const bool string = bodies_.world.is_string(first.thing);
-  const bool meets = std::ranges::find(approaching, 0u) != approaching.end();
+  const bool meets = contains(approaching, 0u);
   const bool stays =
       now.set.rows() > 1 && pair_restitution(bodies_.world, first.a, first.thing) == 0 && !leaves_asleep(first);
   const bool endless = parts_.guard.may_be_endless() && !now.set.has_room();
@@ -105,7 +102,7 @@ void InstantImpacts::add_row(Moment& now, Entity a, Entity thing, const Touch& t
 /// Whether the two things have a row.
 bool InstantImpacts::is_known(const Moment& now, Entity a, Entity thing) {
   const uint32_t number = now.members.number(a);
-  return number != Numbering::none && std::ranges::any_of(now.set.rows_of(number), [&](uint32_t c) {
+  return number != Numbering::none && any_of(now.set.rows_of(number), [&](uint32_t c) {
            return now.touching[c].a == a && now.touching[c].thing == thing;
          });
 }
@@ -365,7 +362,7 @@ void InstantImpacts::begin_flights(Moment& now, span<const ImpactSet::Impact> im
   }
 
   vector<uint32_t> changed = now.set.changed();
-  std::ranges::sort(changed, [&](uint32_t k, uint32_t l) { return now.members[k] < now.members[l]; });
+  ranges::sort(changed, [&](uint32_t k, uint32_t l) { return now.members[k] < now.members[l]; });
   changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
   for (const uint32_t k : changed) {
     const Entity i = now.members[k];

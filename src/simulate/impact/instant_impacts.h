@@ -6,7 +6,6 @@
 // struck, and by what strings and rods connect with it. Every round applies to the bodies before the next one: flights
 // begin, sleepers wake, bodies come to rest. Members of crowds are not taken in. Their impacts are those
 // of two (exact_impacts.h).
-#include <algorithm>
 
 #include "physics/restitution.h"
 #include "simulate/contact/flat_contacts.h"

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
 #include "std.h"

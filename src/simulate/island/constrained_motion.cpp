@@ -2,9 +2,6 @@
 // and what is booked. An island with too many changes of contact in a short time is left to move as a crowd.
 #include "simulate/island/constrained_motion.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "physics/world.h"
 #include "simulate/contact/collapse_detector.h"
 #include "simulate/contact/exact_group.h"
@@ -34,7 +31,7 @@ ConstrainedMotion::ConstrainedMotion(ExactBodies& bodies, ModeChanges& modes, Ex
 /// in a short time are not too many.
 bool ConstrainedMotion::count_change(Island& island, double load, double smallest) const {
   if (load == 0 || island.changed == bodies_.now) return true;
-  if (bodies_.now - island.counted > tol::time_of_changes * std::sqrt(2 * smallest / load)) {
+  if (bodies_.now - island.counted > tol::time_of_changes * sqrt(2 * smallest / load)) {
     island.counted = bodies_.now;
     island.changes = 0;
   }
@@ -54,13 +51,13 @@ bool ConstrainedMotion::advance(Entity i) {
   if (!undisturbed) take_in_touching(i);
 
   Island& island = bodies_.islands.of(i);
-  std::ranges::sort(island.members);
+  ranges::sort(island.members);
   vector<uint32_t> part;
   {
     IslandStep step = begin_step(island.members, undisturbed);
     if (may_be_busy && !count_change(island, step.load, step.smallest)) return false;
     part = connected_parts(step.members.size(), step.contacts.pairs);
-    if (std::ranges::all_of(part, [](uint32_t first) { return first == 0; })) {
+    if (all_of(part, [](uint32_t first) { return first == 0; })) {
       apply(step);
       return true;
     }
@@ -104,7 +101,7 @@ void ConstrainedMotion::take_in_touching(Entity i) {
 }
 
 /// The position (m) and velocity (m/s) of member i at present, on the path that it follows or on its flight.
-std::pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
+pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
   const Following& following = following_[i];
   if (following.path && following.version == bodies_.body[i].version) {
     const IslandPath& path = *following.path;
@@ -256,7 +253,7 @@ void ConstrainedMotion::report(const Island& island, double time, vector<Contact
 
   // Each contact once, from its first body.
   vector<ContactConstraint> pairs;
-  vector<std::pair<Entity, Entity>> names;
+  vector<pair<Entity, Entity>> names;
   for (uint32_t k = 0; k < step.members.size(); ++k) {
     const Entity i = step.members[k];
     for (const Entity e : modes_.partners(i)) {

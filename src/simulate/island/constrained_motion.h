@@ -53,7 +53,7 @@ class ConstrainedMotion {
   void take_in_touching(Entity i);
   bool count_change(Island& island, double load, double smallest) const;
   IslandStep begin_step(const vector<Entity>& members, bool undisturbed);
-  std::pair<Vec3, Vec3> place_of(Entity i) const;
+  pair<Vec3, Vec3> place_of(Entity i) const;
   void apply(IslandStep& step);
   void book(const IslandStep& step);
   void note_contacts(const IslandStep& step);

@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/path_time_of_impact.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"
@@ -170,9 +167,8 @@ void ConstrainedSteps::record_fast(IslandStep& step, vector<AbsorbedImpact>& imp
 
 /// The speed (m/s) at which path errors let pairs separate. Strings hold by their curvature where nothing else pulls.
 double ConstrainedSteps::parting_speed(const IslandStep& step) const {
-  const bool tied =
-      std::ranges::any_of(step.contacts.names, [&](const auto& name) { return bodies_.world.is_string(name.e); });
-  return std::sqrt(2 * step.load * tol::step_error * step.smallest) +
+  const bool tied = any_of(step.contacts.names, [&](const auto& name) { return bodies_.world.is_string(name.e); });
+  return sqrt(2 * step.load * tol::step_error * step.smallest) +
          (tied ? tol::drift : tol::velocity_rounding) * step.fastest;
 }
 
@@ -252,8 +248,8 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   // More energy than errors may have made is no error.
   vector<Vec3> stopped = step.v;  // m/s
   const Certificate certificate = solve({step.inverse_mass, stopped, kept});
-  const double errors = parting_speed(step) * (step.fastest + std::sqrt(step.load * step.smallest));  // m^2/s^2
-  double taken = 0;                                                                                   // J, twice
+  const double errors = parting_speed(step) * (step.fastest + sqrt(step.load * step.smallest));  // m^2/s^2
+  double taken = 0;                                                                              // J, twice
   double made = 0;
   for (size_t k = 0; k < step.v.size(); ++k) {
     taken += (stopped[k] - step.v[k]).squaredNorm() / step.inverse_mass[k];
@@ -358,7 +354,7 @@ void ConstrainedSteps::find_resting(IslandStep& step) const {
     // What drag alone balances goes on.
     const Entity i = step.members[k];
     const Vec3 drag = bodies_.force_at(i, step.x[k], step.v[k]) - bodies_.force_at(i, step.x[k], Vec3::Zero());
-    if (!(speed <= tol::drift * std::sqrt(step.load * step.smallest) &&
+    if (!(speed <= tol::drift * sqrt(step.load * step.smallest) &&
           (step.a[k] - drag).norm() <= tol::constrained_balance * step.load))
       moves[part[k]] = 1;
   }
@@ -424,7 +420,7 @@ void ConstrainedSteps::find_pressed(IslandStep& step) const {
 double ConstrainedSteps::longest(IslandStep& step) const {
   const bool loaded = step.load > 0;
   double h = 2 * (Instant{bodies_.options.duration, 0} - bodies_.now) +
-             (loaded ? tol::first_step * std::sqrt(step.smallest / step.load)
+             (loaded ? tol::first_step * sqrt(step.smallest / step.load)
                      : tol::first_step * step.smallest / at_least_tiny(step.fastest));
   step.grace = loaded ? 2 * bodies_.slow_speed(step.load, step.smallest) / step.load
                       : tol::free_time * step.smallest / at_least_tiny(step.fastest);
@@ -441,7 +437,7 @@ double ConstrainedSteps::longest(IslandStep& step) const {
 void ConstrainedSteps::choose_motion(IslandStep& step, ConstrainedSystem& system, double next_length) const {
   const double time = system.scales(step.x, step.v).time();  // s
   step.length = longest(step);
-  const bool all_rest = std::ranges::all_of(step.fates, [](const MemberFate& fate) { return fate.rests; });
+  const bool all_rest = all_of(step.fates, [](const MemberFate& fate) { return fate.rests; });
   const double straight = all_rest ? step.length : system.straight_time(step.x, step.v, step.a);
 
   if (!(straight >= min(step.length, time))) {
@@ -510,7 +506,7 @@ double ConstrainedSteps::away_time(const IslandStep& step, size_t pair) const {
 
   double t = never;
   if (u > 0) t = min(t, far / u);
-  if (w > 0) t = min(t, std::sqrt(2 * far / w));
+  if (w > 0) t = min(t, sqrt(2 * far / w));
   return t;
 }
 

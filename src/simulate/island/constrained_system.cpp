@@ -4,10 +4,6 @@
 // unique. Rims are found at samples of the dense output.
 #include "simulate/island/constrained_system.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "numerics/cube_root.h"
 #include "numerics/dormand_prince.h"
 #include "numerics/gauss.h"
@@ -153,12 +149,12 @@ vector<Vec3> ConstrainedSystem::forces_at(const vector<Vec3>& x, const vector<Ve
 }
 
 bool ConstrainedSystem::any_bent() const {
-  return std::ranges::any_of(applied_, [](const Applied& of) { return of.bent; });
+  return any_of(applied_, [](const Applied& of) { return of.bent; });
 }
 
 double ConstrainedSystem::common_fade() const {
   const double fade = applied_.front().fade;
-  const bool same = std::ranges::all_of(applied_, [&](const Applied& of) { return of.fade == fade; });
+  const bool same = all_of(applied_, [&](const Applied& of) { return of.fade == fade; });
   return same ? fade : -1;
 }
 
@@ -246,7 +242,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const vector<Vec3>& x, const
 
   s.acceleration = greatest_norm(forces_at(x, v));
   for (const ContactConstraint& row : rows_) s.acceleration = max(s.acceleration, std::abs(row.target));
-  s.speed = max(relative_speed(v), std::sqrt(s.acceleration * s.length));
+  s.speed = max(relative_speed(v), sqrt(s.acceleration * s.length));
 
   // The greatest term of the forces' sum.
   double strongest = s.acceleration;
@@ -291,10 +287,10 @@ double ConstrainedSystem::reaction(const ContactConstraint& row) const {
 /// because the motion away from an equilibrium grows in proportion to it, or half the rounding of positions (m).
 double ConstrainedSystem::turning_time(double load, double bend, double w, double a, double rounding) const {
   if (!(load * (w + a) > 0)) return never;
-  const double share = std::sqrt(6 * step_error_ * bend / load);
+  const double share = sqrt(6 * step_error_ * bend / load);
   double rounded = never;
   if (w > 0) rounded = cube_root(3 * rounding * bend / (load * w));
-  if (a > 0) rounded = min(rounded, std::sqrt(std::sqrt(12 * rounding * bend / (load * a))));
+  if (a > 0) rounded = min(rounded, sqrt(sqrt(12 * rounding * bend / (load * a))));
   return max(share, rounded);
 }
 
@@ -318,11 +314,11 @@ double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3
       const double pull = relative(a, rows[c]).norm();
 
       const double bent = pull + w * w / bend;
-      if (bent > 0) h = min(h, std::sqrt(std::sqrt(8 * room) / bent));
+      if (bent > 0) h = min(h, sqrt(sqrt(8 * room) / bent));
       if (w * bent > 0) h = min(h, cube_root(2 * room / (w * bent)));
       h = min(h, turning_time(reaction(rows[c]), bend, w, pull, distance_rounding(roundings, rows[c], e)));
       // On a path that drag bends the acceleration decays, and that across the surface does not.
-      if (fade * w > 0) h = min(h, max(cube_root(6 * room / (fade * w * w)), std::sqrt(2 * room) / w));
+      if (fade * w > 0) h = min(h, max(cube_root(6 * room / (fade * w * w)), sqrt(2 * room) / w));
     }
   };
 
@@ -358,7 +354,7 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
     if (is_flat(world_, i, e, feature)) continue;
     const double bend = bend_radius(world_, i, e);
     const double w = relative_velocity(v, rows_[c], e).norm();
-    take(max(std::sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
+    take(max(sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
   }
 
   // Forces that vary refer to places and velocities in space.
@@ -369,7 +365,7 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
     if (applied_[k].bent || applied_[k].fade > 0) take(0, v[k].norm(), 0);
     if (!applied_[k].bent) continue;
 
-    const double swings = std::sqrt(force_jacobian(world_, i, time_, x[k], v[k]).by_position.norm());
+    const double swings = sqrt(force_jacobian(world_, i, time_, x[k], v[k]).by_position.norm());
     take(min(swings, force_rate(world_, i, x[k], v[k])), 0, roundings[k]);
     width = min(width, force_reach(world_, i, x[k]));
     left = min(left, left_of_speed(world_, i, time_, x[k], v[k]));
@@ -377,11 +373,11 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
 
   // The speed that the motion reaches, from rest, before accelerations change.
   const double pull = greatest_norm(a);
-  double gained = std::sqrt(pull * width);
+  double gained = sqrt(pull * width);
   if (rate > 0) gained = min(gained, pull / rate);
   if (const double fade = greatest_fade(); fade > 0) gained = min(gained, pull / fade);
 
-  const double place = *std::ranges::max_element(roundings);
+  const double place = *ranges::max_element(roundings);
   const double speed = step_error_ * left * max(fastest, gained);
   return {max(step_error_ * left * width, place), max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
 }
@@ -578,7 +574,7 @@ double ConstrainedSystem::opens(const DenseMotion& motion, double t) {
 
 /// The time (s) at which gaps accelerate clearly, but only just. They do at `to` (by at_end), and not at `from`.
 double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, double to, double at_end) {
-  const double aim = std::sqrt(tol::opened * tol::wide_open);
+  const double aim = sqrt(tol::opened * tol::wide_open);
   // A second point at which contacts are open.
   double beyond = to;
   double at_beyond = at_end;
@@ -594,8 +590,8 @@ double ConstrainedSystem::find_opening(const DenseMotion& motion, double from, d
 
     const double at_t = opens(motion, t);
     if (at_t > tol::opened) {
-      beyond = std::exchange(to, t);
-      at_beyond = std::exchange(at_end, at_t);
+      beyond = exchange(to, t);
+      at_beyond = exchange(at_end, at_t);
     } else {
       from = t;
     }

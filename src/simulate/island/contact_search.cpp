@@ -2,10 +2,6 @@
 // could explain has an impact of its own, and is left out.
 #include "simulate/island/contact_search.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/world.h"
 #include "simulate/contact/exact_group.h"
 #include "simulate/tolerances.h"
@@ -68,8 +64,8 @@ void ContactSearch::find_strings(IslandStep& step, uint32_t k) const {
 /// The greatest acceleration by forces with which members may press on anything (m/s^2). Without a fixed thing in
 /// contact it is that relative to one another, because what falls freely presses on nothing.
 double ContactSearch::load_of(const IslandStep& step) const {
-  const bool held = std::ranges::any_of(step.contacts.pairs,
-                                        [](const ContactConstraint& p) { return p.b == ContactConstraint::fixed; });
+  const bool held =
+      any_of(step.contacts.pairs, [](const ContactConstraint& p) { return p.b == ContactConstraint::fixed; });
   const auto pull = [&](size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
   const Vec3 common = held ? Vec3(Vec3::Zero()) : pull(0);
   double greatest = 0;

@@ -1,7 +1,5 @@
 #pragma once
 // A step of an island by constrained motion, as a value: what is found for it, and what its end will change.
-#include <algorithm>
-#include <utility>
 
 #include "numerics/dormand_prince.h"
 #include "numerics/radau_collocation.h"

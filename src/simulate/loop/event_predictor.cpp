@@ -3,9 +3,7 @@
 // effect. Balls under equal accelerations, the common case, are tested several at a time (straight_times.h).
 #include "simulate/loop/event_predictor.h"
 
-#include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include "geometry/path_time_of_impact.h"
 #include "physics/world.h"
@@ -76,8 +74,8 @@ void EventPredictor::predict_all() {
     }
 
     others.clear();
-    std::ranges::copy_if(bodies_.neighbours.bodies(i), std::back_inserter(others),
-                         [&](Entity j) { return j < i && !together(i, j); });
+    ranges::copy_if(bodies_.neighbours.bodies(i), std::back_inserter(others),
+                    [&](Entity j) { return j < i && !together(i, j); });
     predict_among(i, others);
   }
 }
@@ -256,7 +254,7 @@ inline void EventPredictor::offer(Entity i, ExactEvent& best, ExactEvent candida
       // A string has one event for both of its bodies.
       const auto key = [i](const ExactEvent& e) {
         const Entity body = e.kind == ExactEvent::Kind::string ? e.partner : i;
-        return std::pair(min(body, e.partner), max(body, e.partner));
+        return pair(min(body, e.partner), max(body, e.partner));
       };
       if (key(best) < key(candidate)) return;
     }

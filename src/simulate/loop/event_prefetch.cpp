@@ -3,8 +3,6 @@
 // not depend on it.
 #include "simulate/loop/event_prefetch.h"
 
-#include <algorithm>
-
 #include "numerics/prefetch.h"
 #include "physics/world.h"
 #include "std.h"
@@ -40,7 +38,7 @@ void EventPrefetch::find_due(double now) {
     due_.resize(4 * far_ahead);
   }
 
-  std::ranges::sort(due_, earlier);
+  ranges::sort(due_, earlier);
 }
 
 Entity EventPrefetch::due_in(size_t steps) const {

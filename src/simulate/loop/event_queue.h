@@ -3,7 +3,6 @@
 // the number of the string.
 // At one instant, bodies that leave their regions come first, because that is not a physical event. Time alone would
 // leave ties to chance, and a run's bits would depend on the queue's structure.
-#include <algorithm>
 
 #include "numerics/tournament.h"
 #include "simulate/contact/exact_bodies.h"

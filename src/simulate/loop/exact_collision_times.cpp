@@ -3,9 +3,6 @@
 // under drag and polynomials the search by separating planes.
 #include "simulate/loop/exact_collision_times.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/contact_time.h"
 #include "geometry/path_time_of_impact.h"
 #include "physics/world.h"
@@ -75,7 +72,7 @@ Instant ExactCollisionTimes::of_pair(Entity i, Entity j, uint8_t& feature, doubl
     return of_curves(a, p, b, q, m, feature);
   if (step) {
     const double greatest = max(bodies_.applied[a].norm(), bodies_.applied[b].norm());
-    m.speeds += exact_tolerance::step_rounding * std::sqrt(greatest * s);
+    m.speeds += exact_tolerance::step_rounding * sqrt(greatest * s);
   }
 
   // The time by the kind of paths and volumes.
@@ -192,7 +189,7 @@ Instant ExactCollisionTimes::of_string(Entity string) const {
 /// The rounding of body i's speed by steps in contact (m/s).
 double ExactCollisionTimes::noise_in_contact(Entity i) const {
   return in_lasting_contact(bodies_.mode(i))
-             ? exact_tolerance::step_rounding * std::sqrt(bodies_.applied[i].norm() * bodies_.world.radius[i])
+             ? exact_tolerance::step_rounding * sqrt(bodies_.applied[i].norm() * bodies_.world.radius[i])
              : 0;
 }
 

@@ -4,10 +4,6 @@
 // the caller keeps control.
 #include "simulate/loop/exact_simulator.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "physics/archive.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -56,7 +52,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
 inline void ExactSimulator::predict_changed() {
   span<Entity> changed = flights_.take_changed();
   if (changed.size() > 2) [[unlikely]] {
-    std::ranges::sort(changed);
+    ranges::sort(changed);
     changed = changed.first(size_t(std::unique(changed.begin(), changed.end()) - changed.begin()));
   }
 
@@ -417,7 +413,7 @@ bool ExactSimulator::rests(Entity i) const {
   const Flight f = bodies_.flights[i];
   if (!f.v.isZero(0) || is_kicked(bodies_.mode(i))) return false;
   if (f.curve == nullptr) return f.a.isZero(0);
-  return std::ranges::all_of(f.curve->displacement, [](const Vec3& term) { return term.isZero(0); });
+  return all_of(f.curve->displacement, [](const Vec3& term) { return term.isZero(0); });
 }
 
 /// Whether all bodies rest. The search begins at a body that moved before, so that it seldom goes far.
@@ -499,9 +495,8 @@ span<const ContactForce> ExactSimulator::contacts() {
   bodies_.islands.for_each([&](const Island& island) {
     if (bodies_.mode(island.members.front()) != Mode::fresh) islands_.report(island, time_, answers_.contact_forces);
   });
-  std::ranges::sort(answers_.contact_forces, [](const ContactForce& p, const ContactForce& q) {
-    return std::pair(p.a, p.b) < std::pair(q.a, q.b);
-  });
+  ranges::sort(answers_.contact_forces,
+               [](const ContactForce& p, const ContactForce& q) { return pair(p.a, p.b) < pair(q.a, q.b); });
   return answers_.contact_forces;
 }
 

@@ -3,7 +3,6 @@
 // Two, four or eight pairs are computed at a time, as the processor allows.
 // The arithmetic is that of sphere_contact_time (contact_time.h) in the same order, so that the bits are the same.
 // Pairs that need more than a quadratic are left to that function.
-#include <limits>
 
 #include "simulate/path/flight.h"
 #include "std.h"
@@ -11,7 +10,7 @@
 namespace carom {
 
 /// Marks a pair that only sphere_contact_time can decide, because it touches or grazes.
-inline constexpr double unsure = -numeric_limits<double>::infinity();
+inline constexpr double unsure = -infinity;
 
 struct Meet {
   Instant time;  // hi may be `unsure`

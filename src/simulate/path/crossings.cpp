@@ -5,10 +5,7 @@
 // it.
 #include "simulate/path/crossings.h"
 
-#include <algorithm>
-#include <cmath>
 #include <tuple>
-#include <utility>
 
 #include "geometry/region_crossing.h"
 #include "physics/world.h"
@@ -44,7 +41,7 @@ Instant Crossings::first_sure() const {
 bool Crossings::before(Entity i, Entity j) const {
   const Next &p = next_[i].back(), &q = next_[j].back();
   if (p.sure != q.sure) return p.sure < q.sure;
-  return std::tie(p.region, i) < std::tie(q.region, j);
+  return tie(p.region, i) < tie(q.region, j);
 }
 
 void Crossings::follow(Entity i, const Instant& from) {
@@ -102,7 +99,7 @@ void Crossings::find(Entity i, uint32_t region, const Instant& from) {
 void Crossings::schedule(Entity i) {
   if (next_[i].empty()) return queue_->update(i, never);
   vector<Next>& next = next_.write(i);
-  std::ranges::sort(
+  ranges::sort(
       next, [](const Next& p, const Next& q) { return q.sure < p.sure || (p.sure == q.sure && q.region < p.region); });
   queue_->update(i, next.back().sure.hi);
 }
@@ -127,7 +124,7 @@ optional<Crossings::Taken> Crossings::take_until(double time) {
 
 optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
   const vector<Next>& next = next_[i];
-  const auto due = std::ranges::find_if(next, [&](const Next& one) { return one.at <= last; });
+  const auto due = ranges::find_if(next, [&](const Next& one) { return one.at <= last; });
   if (due == next.end()) return nullopt;
   vector<Next>& all = next_.write(i);
   std::rotate(all.begin() + (due - next.begin()), all.begin() + (due - next.begin()) + 1, all.end());
@@ -135,8 +132,8 @@ optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
 }
 
 void Crossings::sort() {
-  std::ranges::sort(recorded_, [](const RegionCrossing& p, const RegionCrossing& q) {
-    return std::tie(p.time, p.region, p.body) < std::tie(q.time, q.region, q.body);
+  ranges::sort(recorded_, [](const RegionCrossing& p, const RegionCrossing& q) {
+    return tie(p.time, p.region, p.body) < tie(q.time, q.region, q.body);
   });
 }
 

@@ -6,9 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "numerics/dormand_prince.h"
 #include "numerics/gauss.h"
 #include "numerics/whole.h"
@@ -41,7 +38,7 @@ PolynomialPath::Point point(const ClosedMotion::Point& of) {
 double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const {
   const World& world = bodies_.world;
   const double rate = force_rate(world, i, x, v);
-  const double fall = std::sqrt(world.radius[i] / max(bodies_.force_at(i, x, v).norm(), 0x1p-900));
+  const double fall = sqrt(world.radius[i] / max(bodies_.force_at(i, x, v).norm(), 0x1p-900));
   return rate > 0 ? tol::first_step / rate : tol::first_step * fall;
 }
 
@@ -106,7 +103,7 @@ PolynomialPath CurvedFlights::closed_step(Entity i, const ClosedForces& forces, 
     const Vec3 quarter = motion.at(since + DoubleDouble{0.25 * h, 0}).velocity;
     const double off = (start.velocity + path.change_at(0.25 * h) - quarter).norm();
     const double error = max(off / speed, 0.4816 * h * off / room);
-    const double eighth_root = std::sqrt(std::sqrt(std::sqrt(error)));
+    const double eighth_root = sqrt(sqrt(sqrt(error)));
     next_.write(i) = h * clamp(0.9 / max(eighth_root, 0x1p-10), 0.2, 4.0);
 
     if (error <= 1) {
@@ -183,10 +180,10 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   // balances forces. It is never below the speed of a swing as wide as a position's error or rounding, because forces
   // that balance are rounding.
   const double swing = max(share * width, 0x1p-51 * x.cwiseAbs().maxCoeff());
-  const double gained = min(std::sqrt(a.norm() * width), a.norm() / max(damping, 0x1p-900));
+  const double gained = min(sqrt(a.norm() * width), a.norm() / max(damping, 0x1p-900));
 
   // Across a spring that is nearly at its anchor the slope is unbounded. Damping is not a swing.
-  const double swings = min(std::sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
+  const double swings = min(sqrt(slopes.by_position.norm()), force_rate(world, i, x, v));
   const double fine = max(share * left, tol::velocity_rounding);
   const double speed = max({fine * v.norm(), fine * gained, left * swing * swings, 0x1p-900});
 

@@ -1,7 +1,6 @@
 #pragma once
 // A body's path since its last change: x + v t + a t^2/2 from its start on, or the same under linear drag.
 // Under other varying forces it is a step of a method, as a polynomial.
-#include <limits>
 
 #include "numerics/large_pages.h"
 #include "numerics/lazy_array.h"
@@ -57,7 +56,7 @@ struct Flight {
   double span_of_fade(double t) const {
     using namespace exact_tolerance;
     const bool straight = is_straight() || fade * t >= faded;
-    return curve != nullptr || straight ? numeric_limits<double>::infinity() : series_fade / fade;
+    return curve != nullptr || straight ? infinity : series_fade / fade;
   }
 
  private:

@@ -1,9 +1,7 @@
 #pragma once
 // The clock of the exact simulator: a time in two doubles. An event at 1e6 s is as exact as one at 1 s. In one double,
 // a ball in a box is off by 1e-6 m after 1e5 s and 4e5 events. In two doubles it is off by 1e-9 m (measured).
-#include <cmath>
 #include <compare>
-#include <limits>
 
 #include "numerics/compensated.h"
 #include "std.h"
@@ -14,7 +12,7 @@ struct Instant {
   double hi = 0, lo = 0;  // s, hi + lo
 
   /// The last double that is not after it (s). A double is after the instant if it is greater than this.
-  double floor() const { return lo < 0 ? std::nextafter(hi, -numeric_limits<double>::infinity()) : hi; }
+  double floor() const { return lo < 0 ? std::nextafter(hi, -infinity) : hi; }
 
   friend bool operator==(const Instant&, const Instant&) = default;
   friend bool operator<(const Instant& a, const Instant& b) { return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo); }

@@ -2,8 +2,6 @@
 // scene gave it. Volumes add up: the joint body has the shape of the heavier one, scaled to the sum of both volumes.
 #include "simulate/path/merged_bodies.h"
 
-#include <algorithm>
-
 #include "geometry/contact_time.h"
 #include "numerics/cube_root.h"
 #include "physics/force.h"

@@ -1,8 +1,6 @@
 // Positions and velocities of fixed things that move, and one list of the instants at which any velocity changes.
 #include "simulate/path/moving_things.h"
 
-#include <algorithm>
-
 #include "numerics/polynomial.h"
 #include "std.h"
 
@@ -17,11 +15,11 @@ DoubleDouble time_of(const Instant& at) {
 }  // namespace
 
 MovingThings::MovingThings(const World& world)
-    : world_(world), any_(std::ranges::any_of(world.motions, [](const auto& legs) { return !legs.empty(); })) {
+    : world_(world), any_(any_of(world.motions, [](const auto& legs) { return !legs.empty(); })) {
   for (const vector<MotionLeg>& legs : world.motions)
     for (const MotionLeg& leg : legs)
       if (leg.from > 0) switches_.push_back(leg.from);
-  std::ranges::sort(switches_);
+  ranges::sort(switches_);
   switches_.erase(std::unique(switches_.begin(), switches_.end()), switches_.end());
 }
 

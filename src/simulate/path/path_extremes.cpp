@@ -7,8 +7,6 @@
 // each body has a bound of its errors so far, and a later value must exceed the first by more.
 #include "simulate/path/path_extremes.h"
 
-#include <algorithm>
-
 #include "numerics/bernstein.h"
 #include "physics/world.h"
 #include "std.h"
@@ -142,7 +140,7 @@ void PathExtremes::add_errors(Entity i, const Flight& f, const PathPoint& from, 
   if (f.curve == nullptr || (bodies_.options.integrator != Integrator::dop853 && bodies_.flies_on_curve(i))) return;
   const double share = max(bodies_.options.step_error, exact_tolerance::step_error);
   seen.place += share * radius;
-  seen.speed += share * (speed + std::sqrt(bodies_.applied[i].norm() * radius));
+  seen.speed += share * (speed + sqrt(bodies_.applied[i].norm() * radius));
 }
 
 /// Takes the values of body i from the last instant taken to `until`, on its present flight. The value at its end

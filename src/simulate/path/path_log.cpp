@@ -2,10 +2,6 @@
 // Only bodies that changed get a new piece, so that the log grows with events and not with outputs.
 #include "simulate/path/path_log.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "physics/world.h"
 #include "simulate/path/crossings.h"
 #include "std.h"
@@ -18,7 +14,7 @@ constexpr size_t path_buffer = 4096;
 
 /// The first double that is not before an instant.
 double first_double(const Instant& at) {
-  return at.lo > 0 ? std::nextafter(at.hi, numeric_limits<double>::infinity()) : at.hi;
+  return at.lo > 0 ? std::nextafter(at.hi, infinity) : at.hi;
 }
 
 }  // namespace
@@ -46,7 +42,7 @@ void PathLog::note(Entity i) {
 }
 
 void PathLog::record_changes() {
-  std::ranges::sort(changed_);
+  ranges::sort(changed_);
   changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
   if (changed_.empty()) return;
   latest_ = max(min(first_double(max(changed_at_, delayed_)), end_), latest_);

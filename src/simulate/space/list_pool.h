@@ -1,7 +1,6 @@
 #pragma once
 // Many short lists that grow and shrink, in a few large pages. A list takes a block of four entries, or of a multiple
 // of four.
-#include <algorithm>
 #include <bit>
 
 #ifdef __SSE2__

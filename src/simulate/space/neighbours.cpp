@@ -3,10 +3,6 @@
 // A grid of fixed cells would cost an event for each cell. The size of a region adapts to the number of bodies in it.
 #include "simulate/space/neighbours.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 #include "physics/body_now.h"
 #include "simulate/space/touching.h"
 #include "std.h"
@@ -49,12 +45,12 @@ void Neighbours::start(const vector<Vec3>& x) {
   origin_ = 0.5 * low + 0.5 * high;
   grid_.start(around(low, 0), around(high, 0));
 
-  vector<std::pair<int, size_t>> expected;  // regions, by level
+  vector<pair<int, size_t>> expected;  // regions, by level
   for (Entity i = 0; i < n; ++i) {
     const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
     lists_[i].level = int16_t(level);
-    const auto known = std::ranges::find_if(expected, [&](const auto& e) { return e.first == level; });
+    const auto known = ranges::find_if(expected, [&](const auto& e) { return e.first == level; });
     known == expected.end() ? (void)expected.emplace_back(level, 1) : (void)++known->second;
   }
 

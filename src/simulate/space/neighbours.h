@@ -4,7 +4,6 @@
 // The method is that of near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737). A region
 // with few neighbours grows, so that a ball that flies off costs little, however far it goes. Results must not depend
 // on extra neighbours, nor on the order of lists.
-#include <algorithm>
 
 #include "numerics/large_pages.h"
 #include "numerics/prefetch.h"
@@ -82,7 +81,7 @@ class Neighbours {
       archive(list.level, all, surfaces, left);
       if constexpr (Archive::reads) {
         pool_.reserve(list, all.size());
-        std::ranges::copy(all, pool_.data(list));
+        ranges::copy(all, pool_.data(list));
         list.count = uint32_t(all.size());
         list.surfaces = surfaces & 0xFFFFFF;
         list.left = left & 0xFF;

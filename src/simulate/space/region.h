@@ -2,8 +2,6 @@
 // A body's region for the search of neighbours: a ball in single precision, a quarter of a cache line. Half widths have
 // steps of a quarter octave.
 #include <bit>
-#include <cmath>
-#include <limits>
 
 #include "numerics/vec3.h"
 #include "std.h"

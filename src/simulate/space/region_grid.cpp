@@ -3,8 +3,6 @@
 // lines, with overflow lines for crowded ones.
 #include "simulate/space/region_grid.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "std.h"
@@ -65,8 +63,8 @@ void RegionGrid::shape(Octave& grid, size_t regions) {
   auto left = double(regions / regions_a_cell + 1);
   bool all = true;
   for (int k = 0; k < 3; ++k) {
-    const double most = k == 0 ? std::cbrt(left) : k == 1 ? std::sqrt(left) : left;
-    const double cells = min(extent[axis[k]], max(1.0, std::floor(most)));
+    const double most = k == 0 ? std::cbrt(left) : k == 1 ? sqrt(left) : left;
+    const double cells = min(extent[axis[k]], max(1.0, floor(most)));
     all = all && cells == extent[axis[k]];
     grid.cells[axis[k]] = int64_t(cells);
     left /= cells;

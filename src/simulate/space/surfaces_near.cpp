@@ -3,9 +3,6 @@
 // over all is as fast.
 #include "simulate/space/surfaces_near.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/contact_time.h"
 #include "numerics/whole.h"
 #include "physics/world.h"

@@ -11,8 +11,6 @@
 #include <fmt/format.h>
 #include <time.h>
 
-#include <algorithm>
-
 #include "solver/contact_cases.h"
 #include "solver/contact_problem.h"
 #include "solver/contact_reference.h"
@@ -50,7 +48,7 @@ void measure(const string& family, const Case& given, Totals& totals) {
   // Against the reference, where that is affordable.
   const auto presses = [](const ContactConstraint& contact) { return contact.force > 0; };
   string error;
-  if (static_cast<size_t>(std::ranges::count_if(c.contacts, presses)) <= most_for_reference) {
+  if (static_cast<size_t>(ranges::count_if(c.contacts, presses)) <= most_for_reference) {
     const Reference exact = reference(given.inverse_mass, given.motion, c.contacts);
     if (exact.holds) {
       const double off = exact.error(given.motion, c.motion);
@@ -94,7 +92,7 @@ void small(Totals& totals) {
 
   // Contacts that are nearly alike.
   for (int k = 2; k <= 12; ++k) {
-    const double angle = std::pow(10.0, -k);
+    const double angle = pow(10.0, -k);
     for (const bool squeezed : {false, true}) measure("small", wedge(angle, squeezed), totals);
     measure("small", with_copies(loaded("packing of 12", packing(12, 1), Load::push, 3), angle), totals);
     measure("small", with_copies(loaded("lattice of 4", lattice(1), Load::push, 0), angle), totals);

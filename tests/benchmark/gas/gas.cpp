@@ -11,8 +11,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <random>
 
@@ -126,7 +124,7 @@ Result run(const Gas& gas) {
 
     // By Enskog's rate of collisions, until there are enough of them.
     const double packed = gas.density * 3.14159265358979 / 6;
-    const double rate = 0.5 * gas.density * 3.14159265358979 * 1.6 * 1.414 * (1 - packed / 2) / std::pow(1 - packed, 3);
+    const double rate = 0.5 * gas.density * 3.14159265358979 * 1.6 * 1.414 * (1 - packed / 2) / pow(1 - packed, 3);
     while (simulator->tally().collisions() < until) {
       const double to = simulator->time() + std::max(0.02 * a_ball, 100 / static_cast<double>(balls)) / rate;
       while (simulator->time() < to) simulator->advance_to(to);
@@ -169,7 +167,7 @@ Result run_apart(const Gas& gas) {
 void measure(const Gas& gas) {
   vector<Result> results;
   for (int k = 0; k < 3; ++k) results.push_back(run_apart(gas));
-  std::ranges::sort(results, [](const Result& p, const Result& q) { return p.seconds < q.seconds; });
+  ranges::sort(results, [](const Result& p, const Result& q) { return p.seconds < q.seconds; });
   const Result& median = results[1];
   fmt::print("{},{},{},{},{:.3f},{:.0f},{:016x}\n", gas.name, moving(gas) + gas.still, gas.density, median.collisions,
              1e6 * median.seconds / static_cast<double>(median.collisions), median.bytes, median.hash);

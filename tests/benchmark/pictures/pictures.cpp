@@ -9,8 +9,6 @@
 #include <fmt/format.h>
 #include <time.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -45,7 +43,7 @@ Scene cloud(int balls) {
   const double radius = std::cbrt(0.8 * 3 / (4 * M_PI * balls)) * (balls == 1 ? 0.7 : 1);
   uint64_t seed = 7;
   const Color palette[] = {{0.90, 0.30, 0.26}, {0.20, 0.55, 0.85}, {0.95, 0.75, 0.25}, {0.35, 0.70, 0.45}};
-  const auto cells = static_cast<int>(std::ceil(std::cbrt(balls)));
+  const auto cells = static_cast<int>(ceil(std::cbrt(balls)));
 
   for (int i = 0; i < balls; ++i) {
     // One in each cell of a grid, so that they do not overlap.
@@ -57,7 +55,7 @@ Scene cloud(int balls) {
     scene.world.mass.push_back(1);
     scene.world.radius.push_back(radius);
     scene.world.restitution.push_back(1);
-    scene.roster.bodies.push_back({"b" + std::to_string(i), static_cast<Entity>(i), 1, false, palette[i % 4]});
+    scene.roster.bodies.push_back({"b" + to_string(i), static_cast<Entity>(i), 1, false, palette[i % 4]});
   }
 
   scene.world.planes.push_back({Vec3::Zero(), Vec3(0, 1, 0), {}});

@@ -3,11 +3,8 @@
 // failed run, or a pile of up to 54 balls that comes to rest too late or never.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <utility>
 
 #include "benchmark/tolerances/varied.h"
 #include "physics/world.h"
@@ -36,7 +33,7 @@ Problem bouncing_ball() {
 Problem ball_on_a_ball() {
   Problem p = problem(3);
   p.obstacle({0, 0, 0}, Volume::sphere(1));
-  p.ball({0.02, std::sqrt(1.5 * 1.5 - 0.02 * 0.02), 0}, Vec3::Zero(), 1, 0.5, 0.3);
+  p.ball({0.02, sqrt(1.5 * 1.5 - 0.02 * 0.02), 0}, Vec3::Zero(), 1, 0.5, 0.3);
   p.plane({0, -1, 0}, {0, 1, 0});
   return p;
 }

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <map>
 
 #include "fuzz/any_scene.h"
 #include "fuzz/memory_file.h"
@@ -48,7 +47,7 @@ Line try_scene(uint64_t seed) {
   std::snprintf(line.engine, sizeof line.engine, "%s", outcome.engine.c_str());
 
   if (line.violated) {
-    string text = "\nseed " + std::to_string(seed) + " (" + made.scene.family + ", " + outcome.engine + "):\n";
+    string text = "\nseed " + to_string(seed) + " (" + made.scene.family + ", " + outcome.engine + "):\n";
     for (const string& violation : outcome.violations) text += "  " + violation + "\n";
     std::printf("%s---8<---\n%s--->8---\n", text.c_str(), made.yaml().c_str());
     std::fflush(stdout);
@@ -58,7 +57,7 @@ Line try_scene(uint64_t seed) {
 
 int write(const string& folder, uint64_t scenes) {
   for (uint64_t seed = 0; seed < scenes; ++seed)
-    std::ofstream(folder + "/" + std::to_string(seed) + ".yaml") << make_any_scene(seed).yaml();
+    std::ofstream(folder + "/" + to_string(seed) + ".yaml") << make_any_scene(seed).yaml();
   return 0;
 }
 
@@ -78,7 +77,7 @@ struct Counts {
 };
 
 int run(uint64_t scenes, uint64_t first) {
-  std::map<string, Counts> by_engine;
+  map<string, Counts> by_engine;
   uint64_t refused = 0, crashed = 0, violated = 0;
 
   // A process for a thousand scenes, so that one that crashes takes only the rest of them along.

@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -34,7 +33,7 @@ struct Shared {
 };
 
 void report(const RandomScene& scene, const vector<string>& violations) {
-  string text = "\nseed " + std::to_string(scene.seed) + " (" + scene.family + ") is violated:\n";
+  string text = "\nseed " + to_string(scene.seed) + " (" + scene.family + ") is violated:\n";
   for (const string& v : violations) text += "  " + v + "\n";
   text += "---8<---\n" + as_yaml(scene) + "--->8---\n";
   std::fwrite(text.data(), 1, text.size(), stdout);
