@@ -4,7 +4,7 @@
 
 #include "bench/bench.h"
 #include "export/plot.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/run_folder.h"
 #include "std.h"
 
@@ -42,7 +42,7 @@ class BenchFolder {
   void write(const Scene& scene, const BenchOptions& options, const BenchResult& result);
 
  private:
-  OpenFolder folder_;
+  FolderWriter folder_;
   string gnuplot_;
 };
 

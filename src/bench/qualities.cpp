@@ -7,6 +7,7 @@
 #include "bench/method.h"
 #include "bench/timing.h"
 #include "numerics/whole.h"
+#include "physics/body_now.h"
 #include "physics/world.h"
 #include "run/engine.h"
 #include "scene/engines.h"
@@ -54,12 +55,12 @@ double height_of_heap(const World& world, const State& state) {
   double lowest = infinity;
 
   for (Entity i = 0; i < world.body_count(); ++i) {
-    const double of_body = state.mass.empty() ? world.mass[i] : state.mass[i];
+    const double of_body = mass_now(world, state, i);
     if (of_body == 0) continue;  // it has left the world
     const double height = up.dot(state.position[i]);
     mass += of_body;
     moment += of_body * height;
-    lowest = min(lowest, height - world.radius[i]);
+    lowest = min(lowest, height - radius_now(world, state, i));
   }
 
   return moment / mass - lowest;

@@ -31,7 +31,7 @@ int refuse(const Options& options, const vector<PlannedScene>& scenes, const str
                                          : without_run(planned, scene_status::not_run).entry);
   }
   complain(options, errors + "; nothing was run");
-  return ended(options, 2, std::move(entries));
+  return print_end(options, 2, std::move(entries));
 }
 
 RunAhead run_ahead(const PlannedScene& planned) {

@@ -49,7 +49,7 @@ class BenchSession {
       planned.scene.reset();  // the next one may need the memory
     }
 
-    return ended(options_, interrupted != 0 ? interrupted : code, document_);
+    return print_end(options_, interrupted != 0 ? interrupted : code, document_);
   }
 
  private:
@@ -61,7 +61,7 @@ class BenchSession {
       document_.push_back(std::move(entry));
     }
     complain(options_, errors + "; nothing was run");
-    return ended(options_, 2, document_);
+    return print_end(options_, 2, document_);
   }
 
   /// Returns whether the bench succeeded. Throws Interrupted.

@@ -13,7 +13,7 @@
 #include "commands/scene_outcome.h"
 #include "commands/slow.h"
 #include "commands/text.h"
-#include "commands/volumes.h"
+#include "commands/volumes_report.h"
 #include "export/flights_file.h"
 #include "export/tables.h"
 #include "files/checkpoint_file.h"
@@ -380,7 +380,7 @@ int check_scenes(const Options& options) {
   }
 
   const string errors = error_count(scenes);
-  ended(options, 0, std::move(entries));
+  print_end(options, 0, std::move(entries));
   if (errors.empty()) return 0;
   flush_out();
   complain(options, errors);

@@ -1,5 +1,5 @@
 #pragma once
-// The table of commands. Each has a file of its own.
+// The table of commands (`Command`: options.h). Each has a file of its own.
 
 #include "commands/options.h"
 #include "std.h"

@@ -15,7 +15,7 @@
 #include "compare/compared_run.h"
 #include "compare/comparison_folder.h"
 #include "compare/stored_measures.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/publication.h"
 #include "files/stored_file.h"
 #include "overlay/font.h"
@@ -205,7 +205,7 @@ class CompareSession {
 
   int end(const char* status, int code, string_view text = {}) {
     document_["status"] = status;
-    return ended(options_, code, document_, text);
+    return print_end(options_, code, document_, text);
   }
 
   const Options& options_;

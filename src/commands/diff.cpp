@@ -161,11 +161,11 @@ int show_difference(const Options& options) {
     json.update(difference_json(difference));
     Block block(options);
     describe(block, difference);
-    return ended(options, 0, json, block.text());
+    return print_end(options, 0, json, block.text());
   } catch (const ExportError& error) {
-    return refused(options, error.what(), Json::object(), error_of_text(error.what()));
+    return print_refusal(options, error.what(), Json::object(), error_of_text(error.what()));
   } catch (const SceneError& error) {
-    return refused(options, error.what(), Json::object(), error.records);
+    return print_refusal(options, error.what(), Json::object(), error.records);
   }
 }
 

@@ -16,7 +16,7 @@ Json text_or_null(const string& text) {
   return text.empty() ? Json() : Json(text);
 }
 
-Json number_or_null(size_t number) {
+Json positive_or_null(size_t number) {
   return number == 0 ? Json() : Json(number);
 }
 
@@ -32,8 +32,8 @@ Json errors_json(const vector<ErrorRecord>& errors) {
   Json list = Json::array();
   for (const ErrorRecord& error : errors)
     list.push_back({{"file", text_or_null(error.file)},
-                    {"line", number_or_null(error.line)},
-                    {"column", number_or_null(error.column)},
+                    {"line", positive_or_null(error.line)},
+                    {"column", positive_or_null(error.column)},
                     {"message", error.message},
                     {"remedy", text_or_null(error.remedy)},
                     {"near", text_or_null(error.near)}});

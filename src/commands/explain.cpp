@@ -240,7 +240,7 @@ int explain(const Options& options) {
     }
   }
 
-  return ended(options, 0, {{"fields", fields}, {"kinds", all}, {"words", words}}, joined(texts, "\n"));
+  return print_end(options, 0, {{"fields", fields}, {"kinds", all}, {"words", words}}, joined(texts, "\n"));
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 #include "compare/comparison_folder.h"
 #include "files/copied_run.h"
 #include "files/failed_run.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/publication.h"
 #include "files/stored_file.h"
 #include "std.h"
@@ -67,7 +67,7 @@ class GatherSession {
   int refuse(const string& what) const { return refuse(what, error_of_text(what)); }
 
   int refuse(const string& what, const vector<ErrorRecord>& errors) const {
-    return refused(options_, what + "; nothing was gathered", {{"folder", folder_}}, errors);
+    return print_refusal(options_, what + "; nothing was gathered", {{"folder", folder_}}, errors);
   }
 
   static bool has_sweep(const string& folder) { return what_stands(folder + "/" + stored_sweep) != Standing::nothing; }
@@ -86,7 +86,7 @@ class GatherSession {
   int gather(const Sweep& sweep, const string& base) {
     if (const string changed = comparison_obstacle(changes_of_comparison(folder_)); !changed.empty())
       return refuse(fmt::format("the folder {} holds {}: remove it or rename it", printable(folder_), changed));
-    SweepFolder folder(folder_, SweepFolder::Use::alone, sweep, base, skipped_text_, stop_if_interrupted);
+    SweepFolder folder(folder_, SweepFolder::Use::exclusive, sweep, base, skipped_text_, stop_if_interrupted);
     Progress progress(options_, printable(name_of_folder(folder_)));
 
     // Which runs each folder has.
@@ -199,7 +199,7 @@ class GatherSession {
     const size_t runs = sweep.size() - skipped_.size();
     const Json json = {{"folder", folder_}, {"status", string(status)}, {"runs", runs},         {"missing", missing},
                        {"failed", failed},  {"skipped", skipped_},      {"doubtful", doubtful_}};
-    if (!missing.empty()) return ended(options_, 1, json);
+    if (!missing.empty()) return print_end(options_, 1, json);
 
     Block block(options_);
     block.heading(name_of_folder(folder_), sweep.title);
@@ -209,7 +209,7 @@ class GatherSession {
     if (!skipped_.empty())
       block.warning("left out", fmt::format("{}: see {}", counted(skipped_.size(), "run", "runs"), stored_skipped));
     block.line("folder", printable(folder_));
-    return ended(options_, failed.empty() ? 0 : 3, json, block.text());
+    return print_end(options_, failed.empty() ? 0 : 3, json, block.text());
   }
 
   const Options& options_;

@@ -11,7 +11,7 @@
 #include "commands/starting_scene.h"
 #include "commands/terminal.h"
 #include "commands/text.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"
 #include "scene/schema.h"
@@ -90,8 +90,8 @@ int write_new(const Options& options) {
   scene.publish();
 
   const string beside = (path.parent_path() / schema_name).string();
-  return ended(options, 0, {{"scene", path.string()}, {"schema", beside}},
-               fmt::format("wrote {} and {}\n", printable(path.string()), printable(beside)));
+  return print_end(options, 0, {{"scene", path.string()}, {"schema", beside}},
+                   fmt::format("wrote {} and {}\n", printable(path.string()), printable(beside)));
 }
 
 }  // namespace

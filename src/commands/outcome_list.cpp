@@ -22,7 +22,7 @@ void OutcomeList::add(SceneOutcome outcome) {
 }
 
 void OutcomeList::end(double wall) {
-  ended(options_, 0, entries_, entries_.size() > 1 ? total(wall) : "");
+  print_end(options_, 0, entries_, entries_.size() > 1 ? total(wall) : "");
 }
 
 string OutcomeList::total(double wall) {

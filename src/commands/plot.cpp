@@ -12,8 +12,8 @@
 #include "commands/plan.h"
 #include "commands/text.h"
 #include "export/gnuplot.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "run/plot_run.h"
@@ -60,7 +60,7 @@ class PlotPlanner {
         make_shared<FormerRun>(read_former_run(planned.file, file, [&](const FormerRun& run, string_view name) {
           if (!charts) charts = possible_charts(run);
           // In another folder pictures are not needed. In the run's own they stay, and must be right.
-          return is_drawn_by(*charts, name) || (!in_place && is_picture(name));
+          return is_drawn_by(*charts, name) || (!in_place && depends_on_look(name));
         }));
 
     // The scene of the folder that is written.
@@ -73,7 +73,8 @@ class PlotPlanner {
       if (in_place && kind.asked(former->scene.output)) outputs.emplace_back(kind.name);
     planned.scene->output = restricted(planned.scene->output, outputs);
     planned.scene->file = former->scene.file;
-    if (const double end = former->end(); end < planned.scene->simulate.duration) planned.scene->ends_at = end;
+    if (const double end = former->read_end_time(); end < planned.scene->simulate.duration)
+      planned.scene->ends_at = end;
 
     former->scene = {};
     refuse_other_file(planned.folder);
@@ -94,7 +95,8 @@ class PlotPlanner {
 
     // The folder may have those that are possible alone.
     vector<string> files = run_files(*planned.scene, planned.scene->output);
-    std::erase_if(files, [&](const string& name) { return series_of(name) != nullptr && !is_drawn_by(charts, name); });
+    std::erase_if(
+        files, [&](const string& name) { return output_with_series(name) != nullptr && !is_drawn_by(charts, name); });
     FolderChanges changes;
     planned.found.content =
         inspect_folder(planned.folder, *planned.scene, outputs_text(planned.scene->output), files, &changes);

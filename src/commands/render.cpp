@@ -12,8 +12,8 @@
 #include "commands/plan.h"
 #include "commands/still.h"
 #include "commands/text.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "run/requirements.h"
@@ -83,7 +83,7 @@ class Planner {
     load.set.clear();
     SceneFile file(path, load);
     auto former = make_shared<FormerRun>(
-        read_former_run(planned.file, file, [](const FormerRun&, string_view name) { return is_picture(name); }));
+        read_former_run(planned.file, file, [](const FormerRun&, string_view name) { return depends_on_look(name); }));
 
     if (is_same_folder(planned.folder, planned.file)) planned.folder = planned.file;
     planned.scene = make_unique<Scene>(scene_with(file, options_.set));
@@ -105,7 +105,7 @@ class Planner {
     planned.price = price_of(*planned.scene);
     refuse_other_file(planned.folder);
     if (options_.at)
-      check_time(former->end());
+      check_time(former->read_end_time());
     else
       check_content(planned);
     if (options_.at || !is_up_to_date(planned, options_))

@@ -8,8 +8,8 @@
 
 #include "commands/error_list.h"
 #include "commands/text.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "files/summary_columns.h"
 #include "scene/output_kinds.h"
@@ -30,10 +30,10 @@ optional<Manifest> manifest_in(const string& folder) {
   return opened ? read_manifest(opened.get(), manifest_name) : nullopt;
 }
 
-/// Whether a run that is drawn again in its own folder left this file as it was.
+/// A file of the former run that drawing again in its own folder left untouched.
 bool is_kept(const PlannedScene& planned, const string& file) {
   return planned.former && planned.former->folder == planned.folder && output_of(file) != nullptr &&
-         !is_picture(file) && planned.former->has(file);
+         !depends_on_look(file) && planned.former->has(file);
 }
 
 // "a.csv, b.csv and 60 pictures in frames/".
@@ -42,7 +42,7 @@ string written_files(const PlannedScene& planned) {
   map<const OutputKind*, uint64_t> series;
   for (const string& file : files_in(planned.folder)) {
     if (is_kept(planned, file)) continue;
-    if (const OutputKind* kind = series_of(file)) {
+    if (const OutputKind* kind = output_with_series(file)) {
       ++series[kind];
     } else {
       names.push_back(printable(file));
@@ -119,8 +119,8 @@ string work_text(const Summary& summary) {
   return listed(each);
 }
 
-Json number_or_null(double value) {
-  return isfinite(value) ? Json(value == 0 ? 0.0 : value) : Json(nullptr);
+Json finite_or_null(double value) {
+  return isfinite(value) ? Json(value == 0 ? 0.0 : value /* no -0 */) : Json(nullptr);
 }
 
 }  // namespace
@@ -235,7 +235,7 @@ Json summary_json(const Summary& summary) {
   for (const SummaryColumn& column : summary_columns().subspan(1)) {
     const auto value = column.value(summary);
     if (const auto* number = std::get_if<double>(&value))
-      json[column.name] = number_or_null(*number);
+      json[column.name] = finite_or_null(*number);
     else
       std::visit([&](auto given) { json[column.name] = given; }, value);
   }
@@ -250,7 +250,7 @@ Json warnings_json(const vector<Warning>& warnings) {
 
 Json work_json(const Summary& s) {
   Json json = Json::object();
-  for (const ForceWork& force : s.energy.of_forces) json[force.force + "_J"] = number_or_null(force.work);
+  for (const ForceWork& force : s.energy.of_forces) json[force.force + "_J"] = finite_or_null(force.work);
   return json;
 }
 
@@ -271,7 +271,7 @@ Json contact_json(const Summary& s) {
             {"absorbed_J", s.contact.shared.absorbed}}}};
 }
 
-Json facts_json(const RunResult& result) {
+Json times_json(const RunResult& result) {
   return {{"wall_s", result.wall_s},
           {"load_s", result.facts.load_s},
           {"simulate_s", result.facts.simulate_s},
@@ -280,17 +280,17 @@ Json facts_json(const RunResult& result) {
           {"peak_memory_bytes", result.facts.peak_memory}};
 }
 
-string document(string_view command, Json scenes) {
+string document(string_view command, Json members) {
   Json whole = {{"carom", CAROM_VERSION}, {"command", string(command)}};
-  if (scenes.is_object())
-    whole.update(scenes);
+  if (members.is_object())
+    whole.update(members);
   else
-    whole["scenes"] = std::move(scenes);
+    whole["scenes"] = std::move(members);
   // A file's name may hold any bytes.
   return text_of_json(whole, 2) + "\n";
 }
 
-int ended(const Options& options, int code, Json members, string_view text) {
+int print_end(const Options& options, int code, Json members, string_view text) {
   if (options.json)
     write_out(document(options.command, std::move(members)));
   else if (!options.quiet)
@@ -298,11 +298,11 @@ int ended(const Options& options, int code, Json members, string_view text) {
   return code;
 }
 
-int refused(const Options& options, string_view complaint, Json members, const vector<ErrorRecord>& errors) {
+int print_refusal(const Options& options, string_view complaint, Json members, const vector<ErrorRecord>& errors) {
   complain(options, complaint);
   members["status"] = "wrong";
   members["errors"] = errors_json(errors);
-  return ended(options, 2, std::move(members));
+  return print_end(options, 2, std::move(members));
 }
 
 void complain(const Options& options, string_view text) {

@@ -39,26 +39,27 @@ void describe(Block& block, const vector<Warning>& warnings);
 void describe_doubtful(Block& block, size_t runs);
 /// Lines about a finished run.
 void describe(Block& block, const PlannedScene& planned, const RunResult& result);
-/// The same as JSON members, named as summary.csv's columns are.
+/// The columns of summary.csv as JSON members.
 nlohmann::ordered_json summary_json(const Summary& summary);
 /// A list of objects with the members `code` and `text`.
 nlohmann::ordered_json warnings_json(const vector<Warning>& warnings);
-/// Bodies that met and stayed together; not every member has a column.
+/// Counts of contact, merges and impacts at once; most have no column.
 nlohmann::ordered_json contact_json(const Summary& summary);
 /// J, by force: "forces.0.drag_J".
 nlohmann::ordered_json work_json(const Summary& summary);
-nlohmann::ordered_json facts_json(const RunResult& result);
+/// Wall times, and the memory at its peak. What is neither simulation nor drawing counts as writing.
+nlohmann::ordered_json times_json(const RunResult& result);
 
-/// {"carom": version, "command": ..., "scenes": [...]}, the whole of what --json prints. An object's members stand as
-/// they are instead of scenes.
-string document(string_view command, nlohmann::ordered_json scenes);
+/// {"carom": version, "command": ..., ...}, the whole of what --json prints. An array becomes the member `scenes`; an
+/// object's members are added to the document.
+string document(string_view command, nlohmann::ordered_json members);
 
 /// The end of a command: with --json its document of these scenes or members, else the text, unless --quiet. Returns
 /// `code`.
-int ended(const Options& options, int code, nlohmann::ordered_json members, string_view text = {});
+int print_end(const Options& options, int code, nlohmann::ordered_json members, string_view text = {});
 /// The end of one that does nothing: a line on stderr, and the status and the errors after these members. Returns 2.
-int refused(const Options& options, string_view complaint, nlohmann::ordered_json members,
-            const vector<ErrorRecord>& errors);
+int print_refusal(const Options& options, string_view complaint, nlohmann::ordered_json members,
+                  const vector<ErrorRecord>& errors);
 
 /// One error to stderr, after the program's name.
 void complain(const Options& options, string_view text);

@@ -39,7 +39,7 @@ function<unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& plan
   const FormerRun& former = *planned.former;
   const bool collisions = needs.collisions || needs.collision_counts;
   if (collisions ? former.has_flights_with_collisions(*planned.scene) : former.has_flights())
-    return [&former](const Scene& scene) { return former.motion(scene); };
+    return [&former](const Scene& scene) { return former.replay(scene); };
 
   if (!quiet)
     write_err(fmt::format("{}: {}: simulating again\n", printable(former.folder),

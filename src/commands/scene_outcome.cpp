@@ -36,7 +36,7 @@ void add_members(Json& entry, const PlannedScene& planned, const RunResult& resu
   if (!result.summary.energy.of_forces.empty()) entry["work"] = work_json(result.summary);
   entry["warnings"] = warnings_json(result.summary.warnings);
   entry["files"] = files_in(planned.folder);
-  entry["time"] = facts_json(result);
+  entry["time"] = times_json(result);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "commands/run_one.h"
 #include "commands/text.h"
 #include "export/png.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "overlay/history.h"
 #include "run/accuracy.h"
 #include "run/motion_record.h"
@@ -32,7 +32,7 @@ function<unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoi
 
 string draw(const PlannedScene& planned, double time, bool quiet) {
   const Scene& scene = *planned.scene;
-  OpenFolder folder(planned.folder);
+  FolderWriter folder(planned.folder);
   EngineChoice engine = planned.price.engine;
   const function<unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, picture_needs(scene), quiet);
   function<unique_ptr<Simulator>()> motion = [&] { return replay(scene); };

@@ -109,7 +109,7 @@ int submit(const Options& options) {
                                     words_of(sweep_words(options, folder)), counted(parts, "part", "parts"));
 
   if (!options.json) write_out(script);
-  return ended(
+  return print_end(
       options, 0,
       {{"sweep", options.operands.front()}, {"folder", folder}, {"runs", runs}, {"parts", parts}, {"script", script}});
 }
@@ -120,8 +120,9 @@ int submit_sweep(const Options& options) {
     return submit(options);
   } catch (const SceneError& error) {
     write_err(error.what());
-    return refused(options, fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")),
-                   {{"sweep", options.operands.front()}}, error.records);
+    return print_refusal(options,
+                         fmt::format("{}: there is nothing to submit", counted(error.count, "error", "errors")),
+                         {{"sweep", options.operands.front()}}, error.records);
   }
 }
 

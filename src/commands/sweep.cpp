@@ -108,7 +108,7 @@ class SweepSession {
   int run(SweepJob& job) {
     const auto start = std::chrono::steady_clock::now();
     const bool is_part = shard_.count > 1;
-    SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::alone, job.sweep(),
+    SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::exclusive, job.sweep(),
                        job.base_text(), skipped_text(job.sweep(), job.invalid()), stop_if_interrupted);
 
     SweepOutcome outcome;

@@ -76,7 +76,7 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     json["skipped"] = skipped_json(outcome.skipped);
     json["doubtful"] = outcome.doubtful;
     json["wall_s"] = outcome.wall_s;
-    return ended(options, code, json);
+    return print_end(options, code, json);
   }
 
   Block block(options);
@@ -97,7 +97,7 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     if (outcome.status.starts_with("part"))
       block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
   }
-  return ended(options, code, {}, block.text());
+  return print_end(options, code, {}, block.text());
 }
 
 int show_failure(const Options& options, int code, const vector<ErrorRecord>& errors, const optional<SweepCut>& cut) {
@@ -109,7 +109,7 @@ int show_failure(const Options& options, int code, const vector<ErrorRecord>& er
     json.update({{"made", cut->made}, {"not_run", cut->not_run}});
   }
   if (!errors.empty()) json["errors"] = errors_json(errors);
-  return ended(options, code, json);
+  return print_end(options, code, json);
 }
 
 int show_plan(const Options& options, const SweepJob& job) {
@@ -132,7 +132,7 @@ int show_plan(const Options& options, const SweepJob& job) {
 
     json["runs"] = std::move(runs);
     json["skipped"] = skipped_json(skipped);
-    return ended(options, 0, json);
+    return print_end(options, 0, json);
   }
 
   const vector<size_t> all = job.of_part();
@@ -153,7 +153,7 @@ int show_plan(const Options& options, const SweepJob& job) {
   describe_skipped(block, skipped);
   block.line("to do", fmt::format("{} of {}", grouped(left), counted(all.size(), "run", "runs")));
   block.line("folder", printable(job.folder()));
-  return ended(options, 0, {}, block.text());
+  return print_end(options, 0, {}, block.text());
 }
 
 }  // namespace carom

@@ -222,7 +222,7 @@ void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t num
 void CompareSheet::write_data(const ChartData& chart, size_t first_row) {
   sheet_.text(first_row, 0, chart.title, CellStyle::note);
   sheet_.set_head_row(first_row + 1);
-  sheet_.head(first_row + 1, 0, chart.x_label, CellStyle::swept_header);
+  sheet_.head(first_row + 1, 0, chart.x_label, CellStyle::varied_header);
 
   // All lines are measured before the first number is written, and share one look.
   NumberLook x_look, look;
@@ -234,7 +234,7 @@ void CompareSheet::write_data(const ChartData& chart, size_t first_row) {
   }
 
   for (size_t row = 0; row < chart.x.size(); ++row) {
-    sheet_.cell(first_row + 2 + row, 0, chart.x[row], CellStyle::swept, &x_look);
+    sheet_.cell(first_row + 2 + row, 0, chart.x[row], CellStyle::varied, &x_look);
     for (size_t k = 0; k < chart.lines.size(); ++k)
       sheet_.number(first_row + 2 + row, 1 + k, chart.lines[k].y[row], CellStyle::plain, &look);
   }

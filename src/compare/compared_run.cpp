@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "compare/stored_measures.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "std.h"

@@ -1,7 +1,7 @@
 #pragma once
 // The data of one run that a comparison reads from its folder.
 
-#include "compare/plan.h"
+#include "compare/comparison_plan.h"
 #include "files/stored_table.h"
 #include "std.h"
 

@@ -3,7 +3,7 @@
 // All data is read from the runs' folders, one at a time.
 // Gathered parts of a sweep thus give the same bytes as an undivided sweep.
 
-#include "compare/plan.h"
+#include "compare/comparison_plan.h"
 #include "files/output_file.h"
 #include "std.h"
 

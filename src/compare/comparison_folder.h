@@ -3,7 +3,7 @@
 
 #include "compare/comparison.h"
 #include "export/side_by_side.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/run_folder.h"
 #include "std.h"
 
@@ -35,7 +35,7 @@ class ComparisonFolder {
   void publish(const vector<unique_ptr<OutputFile>>& files, SideBySide* film, const string& request);
 
  private:
-  OpenFolder folder_;
+  FolderWriter folder_;
 };
 
 }  // namespace carom

@@ -1,7 +1,7 @@
 #pragma once
 // Descriptions of the columns of a comparison.
 
-#include "compare/plan.h"
+#include "compare/comparison_plan.h"
 #include "compare/workbook.h"
 #include "std.h"
 

@@ -199,7 +199,7 @@ void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Me
   const size_t parameters = plan.parameters.size() - 1;
   sheet.set_head_row(0);
   for (size_t column = 0; column < header.size(); ++column)
-    sheet.head(0, column, header[column], column < parameters ? CellStyle::swept_header : CellStyle::header);
+    sheet.head(0, column, header[column], column < parameters ? CellStyle::varied_header : CellStyle::header);
 
   vector<NumberLook> looks(header.size());
   for (size_t i = 0; i < outcomes.points(); ++i)
@@ -208,7 +208,7 @@ void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Me
   size_t row = 1;
   for (size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row)
     for_cells(plan, measures.size(), outcomes, i, [&](size_t column, const Cell& cell) {
-      sheet.cell(row, column, cell, column < parameters ? CellStyle::swept : CellStyle::plain, &looks[column]);
+      sheet.cell(row, column, cell, column < parameters ? CellStyle::varied : CellStyle::plain, &looks[column]);
     });
 
   sheet.fit_table();

@@ -1,7 +1,7 @@
 #pragma once
 // The results by what was varied: a point for each run, or for each scenario of repeated runs.
 
-#include "compare/plan.h"
+#include "compare/comparison_plan.h"
 #include "compare/workbook.h"
 #include "std.h"
 

@@ -22,7 +22,7 @@ ParameterSheet::ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan, boo
 }
 
 void ParameterSheet::add(const ComparedRun& run) {
-  if (!unrelated_ || ++differences_.all_runs > DifferenceList::most_runs) return;
+  if (!unrelated_ || ++differences_.all_runs > DifferenceList::runs_shown) return;
   differences_.runs.push_back(run.id);
   for (Difference& row : differences_.rows) row.values.push_back(run.values[row.parameter]);
 }
@@ -33,7 +33,7 @@ size_t ParameterSheet::write_ranges(const Outcomes& outcomes, size_t row) {
 
   for (const Varied& varied : outcomes.varied()) {
     const Parameter& parameter = plan_.parameters[varied.parameter];
-    sheet_.text(row, 0, parameter.path, CellStyle::swept);
+    sheet_.text(row, 0, parameter.path, CellStyle::varied);
     sheet_.text(row, 1, parameter.unit);
 
     if (varied.values.empty()) {
@@ -69,7 +69,7 @@ size_t ParameterSheet::write_differences(size_t row) {
 
   for (const Difference& difference : differences_.rows) {
     if (row >= most_rows) break;
-    sheet_.text(row, 0, plan_.parameters[difference.parameter].path, CellStyle::swept);
+    sheet_.text(row, 0, plan_.parameters[difference.parameter].path, CellStyle::varied);
     sheet_.text(row, 1, plan_.parameters[difference.parameter].unit);
     for (size_t k = 0; k < difference.values.size(); ++k) sheet_.cell(row, 2 + k, cell_of(difference.values[k]));
     ++row;

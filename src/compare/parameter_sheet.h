@@ -14,17 +14,17 @@ struct Difference {
   vector<string> values;  // by run
 };
 
-/// The values of the first few runs whose scenes have little in common.
+/// If scenes have little in common: the values of the first few runs.
 struct DifferenceList {
-  static constexpr size_t most_runs = 8;
+  static constexpr size_t runs_shown = 8;
   vector<string> runs;      // ids
   vector<Difference> rows;  // what matters most comes first
-  size_t all_runs = 0;
+  size_t all_runs = 0;      // of the sheet, also those without a column here
 };
 
 class ParameterSheet {
  public:
-  /// `unrelated`: see Variation.
+  /// `unrelated`: most parameters exist in some scenes only.
   ParameterSheet(Worksheet& sheet, const ComparisonPlan& plan, bool unrelated);
   void add(const ComparedRun& run);
   void finish(const Outcomes& outcomes, const vector<SceneValue>& common);

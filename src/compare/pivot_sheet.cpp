@@ -105,10 +105,10 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
     sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
     const size_t head = row++;
     sheet.text(head, 0, fmt::format("{} \\ {}", names[0], names[1]), CellStyle::header);
-    for (size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::swept_header, &across_look);
+    for (size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::varied_header, &across_look);
 
     for (size_t i = 0; i < height; ++i, ++row) {
-      sheet.cell(row, 0, down.values[i], CellStyle::swept, &down_look);
+      sheet.cell(row, 0, down.values[i], CellStyle::varied, &down_look);
       for (size_t k = 0; k < width; ++k) {
         const Mean& mean = means[i * width + k];
         if (mean.count == 0) continue;

@@ -21,7 +21,7 @@ namespace {
 constexpr size_t longest_name = 255;
 
 CellStyle head_of(CellStyle style) {
-  return style == CellStyle::swept ? CellStyle::swept_header : CellStyle::header;
+  return style == CellStyle::varied ? CellStyle::varied_header : CellStyle::header;
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ vector<SummarySheet::Column> SummarySheet::make_columns(const ComparisonPlan& pl
   }
 
   for (size_t k = 0; k < plan.parameters.size(); ++k)
-    columns.push_back({plan.parameters[k].path, label_of(plan.parameters[k]), CellStyle::swept, false, {}, k, {}});
+    columns.push_back({plan.parameters[k].path, label_of(plan.parameters[k]), CellStyle::varied, false, {}, k, {}});
   for (size_t k = 0; k < measures.size(); ++k)
     if (measures[k].column == nullptr)
       columns.push_back({measures[k].name, label_of(measures[k].name), CellStyle::plain, false, {}, {}, k});

@@ -24,7 +24,7 @@ constexpr size_t longest_foot = 80;      // characters of the title on printed p
 constexpr size_t general_width = 11;
 constexpr double line_height = 15;         // points
 constexpr double characters_across = 190;  // of a printed page, at about two thirds of the size on the screen
-constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, swept_header_tint = 0xF4B183, grey = 0x595959;
+constexpr lxw_color_t tint = 0xFFF2CC, header_tint = 0xD9E1F2, varied_header_tint = 0xF4B183, grey = 0x595959;
 constexpr lxw_color_t doubtful_tint = 0xFFE699, failed_tint = 0xF8CBAD;
 
 /// The library returns null when it is out of memory.
@@ -40,14 +40,14 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
     case CellStyle::whole:
       format_set_num_format(format, "#,##0");
       break;
-    case CellStyle::swept:
+    case CellStyle::varied:
       format_set_bg_color(format, tint);
       break;
 
     case CellStyle::header:
-    case CellStyle::swept_header:
+    case CellStyle::varied_header:
       format_set_bold(format);
-      format_set_bg_color(format, style == CellStyle::header ? header_tint : swept_header_tint);
+      format_set_bg_color(format, style == CellStyle::header ? header_tint : varied_header_tint);
       format_set_bottom(format, LXW_BORDER_THIN);
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);

@@ -27,10 +27,10 @@ string without_guard(string_view text);
 /// The format of a cell.
 enum class CellStyle {
   plain,
-  whole,  // digits in groups
-  swept,  // tinted: a varied value
+  whole,   // digits in groups
+  varied,  // tinted: a varied value
   header,
-  swept_header,
+  varied_header,
   title,
   note,
   wrapped,

@@ -14,9 +14,9 @@
 #include "export/sheet.h"
 #include "export/tables.h"
 #include "export/writer_kinds.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
-#include "files/open_folder.h"
 #include "files/processors.h"
 #include "files/series_folders.h"
 #include "scene/output_kinds.h"
@@ -111,7 +111,7 @@ struct Exports::Impl {
     vector<FileRecord> files;
     for (const FileRecord& file : run.files) {
       const OutputKind* kind = output_of(file.name);
-      if (kind != nullptr && !is_picture(file.name) && kind->asked(scene.output)) files.push_back(file);
+      if (kind != nullptr && !depends_on_look(file.name) && kind->asked(scene.output)) files.push_back(file);
     }
     return files;
   }
@@ -143,7 +143,7 @@ struct Exports::Impl {
   // Files in the folder from the start.
   vector<FileRecord> first_records;
   // Declared before all that writes into it, so that it is destroyed last and can clean up.
-  optional<OpenFolder> folder;
+  optional<FolderWriter> folder;
   optional<CheckpointFile> checkpoint;
   optional<Checkpoint> interrupted;
   bool is_kept = false;

@@ -7,7 +7,7 @@
 
 namespace carom {
 
-FrameFiles::FrameFiles(OpenFolder& folder, size_t threads)
+FrameFiles::FrameFiles(FolderWriter& folder, size_t threads)
     : series_(folder, frame_files),
       frames_([this](Frame& frame) { series_.put(frame.number, frame.png.encode()); }, 0, threads > 1 ? threads : 0) {}
 

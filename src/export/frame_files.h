@@ -13,7 +13,7 @@ class FrameFiles {
   /// `threads`: 1 is the caller's own thread. More encode the pictures while the caller draws the next ones.
   /// The files and their bytes do not depend on it. `folder` must outlive this object.
   /// Throws ExportError, as all functions of this class do.
-  FrameFiles(OpenFolder& folder, size_t threads);
+  FrameFiles(FolderWriter& folder, size_t threads);
   /// Writes the pictures that are on their way, as far as possible.
   ~FrameFiles();
 

@@ -2,7 +2,7 @@
 // animation.glb. The keyframes are collected here, and src/render/ makes a file of them at the end.
 
 #include "export/writer.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "render/model.h"
 #include "std.h"
 
@@ -12,7 +12,7 @@ struct Scene;
 
 class GltfWriter : public Writer {
  public:
-  GltfWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers)
+  GltfWriter(FolderWriter& folder, const Scene& scene, const ModelMakers& makers)
       : scene_(scene), makers_(makers), file_(folder.place(), "animation.glb") {}
   void add(double time, const State& state, span<const ContactForce> contacts) override;
   vector<OutputFile*> files() override;

@@ -7,7 +7,7 @@
 
 namespace carom {
 
-PlotsWriter::PlotsWriter(OpenFolder& folder, const Scene& scene)
+PlotsWriter::PlotsWriter(FolderWriter& folder, const Scene& scene)
     : gnuplot_(find_gnuplot()), charts_(scene), series_(folder, plot_files) {}
 
 void PlotsWriter::record(span<const Collision> collisions) {

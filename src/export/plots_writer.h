@@ -11,7 +11,7 @@ namespace carom {
 class PlotsWriter final : public Writer {
  public:
   /// Throws ExportError, as all functions of this class do.
-  PlotsWriter(OpenFolder& folder, const Scene& scene);
+  PlotsWriter(FolderWriter& folder, const Scene& scene);
   void record(span<const Collision> collisions) override;
   void add(double time, const State& state, span<const ContactForce> contacts) override;
   vector<OutputFile*> files() override;

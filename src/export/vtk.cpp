@@ -147,7 +147,7 @@ string surfaces_text(const vector<StillThing>& things) {
 
 }  // namespace
 
-VtkWriter::VtkWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers)
+VtkWriter::VtkWriter(FolderWriter& folder, const Scene& scene, const ModelMakers& makers)
     : scene_(scene),
       makers_(makers),
       solids_(has_solids(scene.world)),

@@ -16,7 +16,7 @@ struct Scene;
 
 class VtkWriter : public Writer {
  public:
-  VtkWriter(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);
+  VtkWriter(FolderWriter& folder, const Scene& scene, const ModelMakers& makers);
   void add(double time, const State& state, span<const ContactForce> contacts) override;
   vector<OutputFile*> files() override;
   vector<FileRecord> published() const override { return bodies_.records(); }

@@ -38,7 +38,7 @@ constexpr double path_bytes = 30;
 constexpr double plots_bytes = 3e5;
 
 template <typename Table>
-unique_ptr<Writer> open(OpenFolder& folder, const Scene& scene, const ModelMakers&) {
+unique_ptr<Writer> open(FolderWriter& folder, const Scene& scene, const ModelMakers&) {
   return make_unique<Table>(folder.place(), scene);
 }
 
@@ -61,17 +61,17 @@ constexpr WriterKind all_kinds[] = {
     {"regions", open<RegionTable>,
      [](const Scene& scene, double) { return crossing_bytes * scene.world.body_count(); }},
     {"vtk",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
+     [](FolderWriter& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
        return make_unique<VtkWriter>(folder, scene, makers);
      },
      VtkWriter::bytes},
     {"xyz",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
+     [](FolderWriter& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
        return make_unique<XyzWriter>(folder, scene);
      },
      XyzWriter::bytes},
     {"gltf",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
+     [](FolderWriter& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
        return make_unique<GltfWriter>(folder, scene, makers);
      },
      GltfWriter::bytes, nullptr, frames_motion},
@@ -79,7 +79,7 @@ constexpr WriterKind all_kinds[] = {
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
     {"plots",
-     [](OpenFolder& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
+     [](FolderWriter& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
        return make_unique<PlotsWriter>(folder, scene);
      },
      [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks, may_stop},

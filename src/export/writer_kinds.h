@@ -3,7 +3,7 @@
 
 #include "export/timeline.h"
 #include "export/writer.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "render/model.h"
 #include "scene/output_kinds.h"
 #include "std.h"
@@ -15,7 +15,7 @@ struct Scene;
 struct WriterKind {
   string_view name;  // the name of its OutputKind
   /// Opens its files. What can be refused in advance is refused before. Throws ExportError.
-  unique_ptr<Writer> (*open)(OpenFolder& folder, const Scene& scene, const ModelMakers& makers);
+  unique_ptr<Writer> (*open)(FolderWriter& folder, const Scene& scene, const ModelMakers& makers);
   /// An estimate of the bytes of all its files at this number of instants.
   double (*bytes)(const Scene& scene, double instants);
   /// The instants at which it takes states, if not those of OutputKind::every.

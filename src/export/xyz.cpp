@@ -47,7 +47,7 @@ char* put_vector(char* to, const Vec3& vector) {
 
 // The species X is not a chemical element. ASE accepts no other such name.
 // OVITO takes colours and sizes from the columns.
-XyzWriter::XyzWriter(OpenFolder& folder, const Scene& scene)
+XyzWriter::XyzWriter(FolderWriter& folder, const Scene& scene)
     : scene_(scene), solids_(has_solids(scene.world)), file_(folder.place(), "trajectory.xyz") {
   cell_ = cell_text(scene) +
           " Properties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:color:R:3:id:I:1:molecule:I:1:name:S:1" +

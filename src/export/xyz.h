@@ -3,7 +3,7 @@
 // It uses columns that both read, and numbers that read back to the same doubles.
 
 #include "export/writer.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "std.h"
 
 namespace carom {
@@ -12,7 +12,7 @@ struct Scene;
 
 class XyzWriter : public Writer {
  public:
-  XyzWriter(OpenFolder& folder, const Scene& scene);
+  XyzWriter(FolderWriter& folder, const Scene& scene);
   void add(double time, const State& state, span<const ContactForce> contacts) override;
   vector<OutputFile*> files() override { return {&file_}; }
   static double bytes(const Scene& scene, double instants);

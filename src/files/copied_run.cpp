@@ -9,8 +9,8 @@
 #include <cerrno>
 
 #include "files/folder_names.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
@@ -48,7 +48,7 @@ void copy_run(const string& from, const string& to) {
   const optional<string> text = manifest ? read_text(source.get(), manifest_name, largest_manifest) : nullopt;
   if (!text) fail("copy", {-1, from}, "", "it holds no whole run");
 
-  OpenFolder folder(to, Durability::deferred);
+  FolderWriter folder(to, Durability::deferred);
   remove_files_of_run(folder.place());
   SeriesFolders from_series(source.get());
   map<const OutputKind*, FilePlace> to_series;
@@ -56,7 +56,7 @@ void copy_run(const string& from, const string& to) {
   for (const FileRecord& record : manifest->files) {
     const FileSpot spot = from_series.spot(record.name);
     if (spot.folder < 0) fail("copy", {-1, from}, record.name, "it is not there");
-    const OutputKind* series = series_of(record.name);
+    const OutputKind* series = output_with_series(record.name);
     if (series != nullptr && !to_series.contains(series)) to_series[series] = folder.series(series->series);
     copy_file(spot, series == nullptr ? folder.place() : to_series[series], record);
   }

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/stored_file.h"
 #include "std.h"
 
@@ -19,7 +19,7 @@ constexpr uint64_t longest_reason = 1 << 20;  // bytes
 }  // namespace
 
 void store_failure(const string& path, const string& why) {
-  OpenFolder folder(path, Durability::deferred);
+  FolderWriter folder(path, Durability::deferred);
   remove_files_of_run(folder.place());
   OutputFile file(folder.place(), failure_file);
   file.write(why);

@@ -220,7 +220,7 @@ optional<Manifest> read_manifest(int folder, const string& name) {
 }
 
 bool is_run_file(string_view name) {
-  return series_of(name) != nullptr || is_plain_name(name);
+  return output_with_series(name) != nullptr || is_plain_name(name);
 }
 
 vector<string> run_files(const Scene& scene, const Output& output) {

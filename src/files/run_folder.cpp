@@ -105,7 +105,7 @@ bool has_more(int folder, const Manifest& manifest, const Scene& scene, const ve
   if (manifest.version != CAROM_VERSION) return false;
   SeriesFolders folders(folder);
   return any_of(manifest.files, [&](const FileRecord& file) {
-    const OutputKind* kind = series_of(file.name);
+    const OutputKind* kind = output_with_series(file.name);
     const bool anew = kind ? kind->asked(scene.output) : contains(names, file.name);
     if (anew) return false;
     const FileSpot spot = folders.spot(file.name);
@@ -217,7 +217,7 @@ FolderContent inspect_folder(const string& path, const Scene& scene, const strin
     if (is_whole(folder.get(), *manifest, outputs, files)) return FolderContent::this_run;
 
     const auto is_written = [&](const string& name) {
-      const OutputKind* kind = series_of(name);
+      const OutputKind* kind = output_with_series(name);
       return kind ? kind->asked(scene.output) : contains(files, name);
     };
 

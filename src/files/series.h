@@ -2,7 +2,7 @@
 // Files of one output in a folder of their own (frames/, vtk/, plots/). Each file is complete when its name appears.
 #include <mutex>
 
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 
@@ -11,7 +11,8 @@ namespace carom {
 class Series {
  public:
   /// Makes the folder. Both arguments must outlive this object. Throws ExportError, as all functions of this class do.
-  Series(OpenFolder& folder, const FileSeries& files) : folder_(folder), files_(files), place_(folder.series(files)) {}
+  Series(FolderWriter& folder, const FileSeries& files)
+      : folder_(folder), files_(files), place_(folder.series(files)) {}
   /// Returns the file's name relative to the run's folder. May be called by several threads.
   string put(int64_t number, string_view bytes) { return put(number, files_.name(number), bytes); }
   /// `name`: one of the series' names. From one thread.
@@ -30,7 +31,7 @@ class Series {
 
   string put(int64_t number, const string& name, string_view bytes);
 
-  OpenFolder& folder_;
+  FolderWriter& folder_;
   const FileSeries& files_;
   FilePlace place_;
   mutable std::mutex mutex_;

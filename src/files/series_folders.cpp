@@ -9,7 +9,7 @@
 
 namespace carom {
 
-const OutputKind* series_of(string_view name) {
+const OutputKind* output_with_series(string_view name) {
   const size_t slash = name.find('/');
   if (slash == string_view::npos) return nullptr;
   for (const OutputKind& kind : output_kinds())
@@ -18,13 +18,13 @@ const OutputKind* series_of(string_view name) {
 }
 
 const OutputKind* output_of(string_view name) {
-  if (const OutputKind* kind = series_of(name)) return kind;
+  if (const OutputKind* kind = output_with_series(name)) return kind;
   for (const OutputKind& kind : output_kinds())
     if (kind.has_file(name)) return &kind;
   return nullptr;
 }
 
-bool is_picture(string_view name) {
+bool depends_on_look(string_view name) {
   const OutputKind* kind = output_of(name);
   return kind != nullptr ? kind->draws : film_format(name).has_value();
 }

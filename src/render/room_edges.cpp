@@ -49,7 +49,7 @@ bool edge_of(const vector<Plane>& planes, size_t i, size_t j, Vec3& from, Vec3& 
 vector<Stroke> room_edges(const Scene& scene) {
   vector<Plane> planes;
   for (size_t i = 0; i < scene.world.planes.size(); ++i)
-    if (name_of_fixed(scene, i).visible) planes.push_back(scene.world.planes[i]);
+    if (look_of_fixed(scene, i).visible) planes.push_back(scene.world.planes[i]);
 
   vector<Stroke> edges;
   if (planes.size() > most_planes) return edges;

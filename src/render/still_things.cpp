@@ -52,13 +52,13 @@ class Collector {
     }
     for (size_t i = 0; i < world_.obstacles.size(); ++i)
       add(world_.planes.size() + world_.walls.size() + i,
-          obstacle_mesh(world_.obstacles[i], name_of_obstacle(scene_, i)), false);
+          obstacle_mesh(world_.obstacles[i], look_of_obstacle(scene_, i)), false);
     return std::move(things_);
   }
 
  private:
-  const FixedName& name(size_t fixed) const {
-    static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
+  const FixedLook& name(size_t fixed) const {
+    static const FixedLook unnamed{"", {0.8, 0.8, 0.8}, true};
     return fixed < scene_.roster.fixed.size() ? scene_.roster.fixed[fixed] : unnamed;
   }
 
@@ -72,7 +72,7 @@ class Collector {
     }
 
     for (size_t i = 0; i < world_.obstacles.size(); ++i)
-      if (name_of_obstacle(scene_, i).visible) all.include(world_.obstacles[i].center, world_.obstacles[i].volume.half);
+      if (look_of_obstacle(scene_, i).visible) all.include(world_.obstacles[i].center, world_.obstacles[i].volume.half);
 
     // Without any of these, the planes' own points.
     if ((all.low.array() > all.high.array()).any()) {
@@ -105,7 +105,7 @@ class Collector {
     if (corners.size() >= 3) add(i, flat(corners, plane.normal), false);
   }
 
-  Mesh obstacle_mesh(const Obstacle& obstacle, const FixedName& name) {
+  Mesh obstacle_mesh(const Obstacle& obstacle, const FixedLook& name) {
     if (!name.visible) return {};
     const Volume& volume = obstacle.volume;
     if (name.mesh) {

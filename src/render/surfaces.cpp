@@ -62,13 +62,13 @@ double pattern_unit(const Scene& scene, Size size) {
   return round_below(clamp(8 * median_radius(scene.world), width / 12, width / 2));
 }
 
-const FixedName& name_of_fixed(const Scene& scene, size_t fixed) {
-  static const FixedName unnamed{"", {0.8, 0.8, 0.8}, true};
+const FixedLook& look_of_fixed(const Scene& scene, size_t fixed) {
+  static const FixedLook unnamed{"", {0.8, 0.8, 0.8}, true};
   return fixed < scene.roster.fixed.size() ? scene.roster.fixed[fixed] : unnamed;
 }
 
-const FixedName& name_of_obstacle(const Scene& scene, size_t obstacle) {
-  return name_of_fixed(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
+const FixedLook& look_of_obstacle(const Scene& scene, size_t obstacle) {
+  return look_of_fixed(scene, scene.world.planes.size() + scene.world.walls.size() + obstacle);
 }
 
 void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
@@ -80,7 +80,7 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
 
   shot.grounds.clear();
   for (size_t i = 0; i < scene.world.planes.size(); ++i) {
-    const FixedName& name = name_of_fixed(scene, i);
+    const FixedLook& name = look_of_fixed(scene, i);
     if (!name.visible) continue;
     const Plane& plane = scene.world.planes[i];
 

@@ -9,9 +9,9 @@
 namespace carom {
 
 /// Name, colour and other properties of an obstacle, by its number among obstacles.
-const FixedName& name_of_obstacle(const Scene& scene, size_t obstacle);
+const FixedLook& look_of_obstacle(const Scene& scene, size_t obstacle);
 /// The same of any fixed thing, by its number among all of them.
-const FixedName& name_of_fixed(const Scene& scene, size_t fixed);
+const FixedLook& look_of_fixed(const Scene& scene, size_t fixed);
 
 /// The side of the squares on planes, m: several bodies wide, between a twelfth and half of the picture at the target
 /// of the camera at time 0. A camera that moves does not change it.

@@ -47,7 +47,7 @@ Things::Things(const Scene& scene) : scene_(scene) {
     for (size_t i = range.first; i < range.first + size_t{range.count} && i < bodies; ++i) looks_[i] = look;
   }
   for (uint32_t i = 0; i < scene.world.obstacles.size(); ++i) {
-    const FixedName& name = name_of_obstacle(scene, i);
+    const FixedLook& name = look_of_obstacle(scene, i);
     if (!name.visible) continue;
     obstacles_.push_back(i);
     looks_.push_back(look_of(name.color, name.mesh));
@@ -82,7 +82,7 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
     shadow.volume = solid.kind;
     shadow.middle = floats(eye.point(position + look.size.middle));
 
-    if (look.size.reach > 0) shadow.outline = int32_t(look.file), shadow.reach = float(look.size.reach);
+    if (look.size.half_shadow > 0) shadow.outline = int32_t(look.file), shadow.reach = float(look.size.half_shadow);
     solid.kind = raster::SolidKind::mesh;
     solid.part = uint32_t(shot.meshes.size());
     shot.meshes.push_back(shadow);
@@ -115,7 +115,7 @@ void Things::take_mean(const Look& look, raster::Shot& shot) {
 void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
   for (size_t i = 0; i < world.walls.size(); ++i) {
-    const FixedName& name = name_of_fixed(scene_, world.planes.size() + i);
+    const FixedLook& name = look_of_fixed(scene_, world.planes.size() + i);
     if (!name.visible) continue;
 
     const Wall& wall = world.walls[i];
@@ -154,13 +154,13 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     if (!drawing.glow.empty()) shot.solids.back().glow = drawing.glow[i];
   }
 
-  size_t look = world.body_count();
+  size_t number = world.body_count();
   for (const uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
-    add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[look], looks_[look].mesh.has_value(), eye,
+    add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[number], looks_[number].mesh.has_value(), eye,
         shot);
-    take_mean(looks_[look], shot);
-    ++look;
+    take_mean(looks_[number], shot);
+    ++number;
   }
 
   add_walls(eye, shot);

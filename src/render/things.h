@@ -23,7 +23,7 @@ struct MeanColor {
 struct MeshSize {
   double radius = 0;                   // of a ball about the body's position
   Vec3 middle = Vec3::Zero();          // from the position, along the world's axes
-  double reach = 0;                    // half the side of its shadow's outline; 0: it casts its volume's shadow
+  double half_shadow = 0;              // half the side of its shadow's outline; 0: it casts its volume's shadow
   optional<MeanColor> mean = nullopt;  // if it is drawn in colours of its own
 };
 
@@ -51,6 +51,7 @@ struct PlacedMesh {
   raster::Float3 plain{};  // linear; of the parts without a colour, if it has colours of its own
 };
 
+/// All that a picture shows as solids: what a body is, and what it can meet.
 class Things {
  public:
   explicit Things(const Scene& scene);
@@ -69,8 +70,8 @@ class Things {
     }
   }
 
-  /// Fills the solids of a picture with the bodies of `state`, the obstacles and the walls. A body that is part of
-  /// another is left out, and the joint body has the volume of the state. Its lens must be filled before.
+  /// Fills the solids of a picture with the bodies of `state`, the obstacles and the walls. Bodies that are gone are
+  /// left out, and a joint body has the size of the state.
   void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot);
   const vector<PlacedMesh>& meshes() const { return meshes_; }
 

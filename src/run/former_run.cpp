@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "export/flights_file.h"
+#include "files/folder_writer.h"
 #include "files/hash.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
@@ -28,7 +28,7 @@ namespace {
   throw ExportError(fmt::format("{}\n  {}", reason, remedy));
 }
 
-[[noreturn]] void refuse_damaged(const string& folder, const string& reason) {
+[[noreturn]] void refuse_until_rerun(const string& folder, const string& reason) {
   refuse(reason, run_again(folder));
 }
 
@@ -62,24 +62,24 @@ FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFil
   run.folder = folder;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
   const auto manifest = opened ? read_manifest(opened.get(), manifest_name) : nullopt;
-  if (!manifest) refuse_damaged(folder, "its manifest.json is damaged, or not written by carom");
+  if (!manifest) refuse_until_rerun(folder, "its manifest.json is damaged, or not written by carom");
   run.manifest = *manifest;
 
   if (manifest->version != CAROM_VERSION)
-    refuse_damaged(folder,
-                   fmt::format("it is a run of carom {}, and this is carom {}", manifest->version, CAROM_VERSION));
+    refuse_until_rerun(folder,
+                       fmt::format("it is a run of carom {}, and this is carom {}", manifest->version, CAROM_VERSION));
 
   // Its scene, with the outputs that it has.
   run.scene = file.scene();
   if (sha256(run.scene.resolved) != manifest->scene_sha256)
-    refuse_damaged(folder, "its scene.yaml is not the one that was run");
+    refuse_until_rerun(folder, "its scene.yaml is not the one that was run");
   run.scene.output = restricted(run.scene.output, output_names_of(*manifest));
   if (outputs_text(run.scene.output) != manifest->outputs)
     refuse("it holds no run", "name a folder that carom run has written");
 
   if (const string wrong = wrong_file(opened.get(), *manifest, [&](string_view name) { return spared(run, name); });
       !wrong.empty())
-    refuse_damaged(folder, fmt::format("{} is missing or has changed", wrong));
+    refuse_until_rerun(folder, fmt::format("{} is missing or has changed", wrong));
   run.scene.file = manifest->scene_file;
   return run;
 }
@@ -92,7 +92,7 @@ bool FormerRun::has_flights() const {
   return has(flights_name);
 }
 
-double FormerRun::end() const {
+double FormerRun::read_end_time() const {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
   Descriptor file = opened ? open_stored(opened.get(), "summary.csv") : Descriptor();
   if (!file) throw ExportError(fmt::format("{}/summary.csv is missing", folder));
@@ -103,15 +103,15 @@ double FormerRun::end() const {
   return *time;
 }
 
-bool FormerRun::has_flights_with_collisions(const Scene& of) const {
+bool FormerRun::has_flights_with_collisions(const Scene& drawn) const {
   if (!has_flights()) return false;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  return FlightsReader(opened.get(), folder, of).has_collisions();
+  return FlightsReader(opened.get(), folder, drawn).has_collisions();
 }
 
-unique_ptr<Simulator> FormerRun::motion(const Scene& of) const {
+unique_ptr<Simulator> FormerRun::replay(const Scene& drawn) const {
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  return replay_from(make_unique<FlightsReader>(opened.get(), folder, of), of.world);
+  return replay_from(make_unique<FlightsReader>(opened.get(), folder, drawn), drawn.world);
 }
 
 }  // namespace carom

@@ -19,20 +19,22 @@ struct FormerRun {
   bool has(string_view file) const;
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
-  /// The same, with its collisions (drawings_show_collisions). `scene` must have the same motion. Throws ExportError if
-  /// the file is damaged.
-  bool has_flights_with_collisions(const Scene& scene) const;
+  /// The same, with its collisions (drawings_show_collisions). `drawn`: the scene to draw, of the same motion, perhaps
+  /// of another look. Throws ExportError if the file is damaged.
+  bool has_flights_with_collisions(const Scene& drawn) const;
   /// When it ended (s), by its summary.csv. Throws ExportError.
-  double end() const;
-  /// A simulator that follows these paths. `scene` must have the same motion and outlive it.
+  double read_end_time() const;
+  /// A simulator that follows these paths. `drawn` must have the same motion and outlive it.
   /// Throws ExportError, also later while it advances.
-  unique_ptr<Simulator> motion(const Scene& scene) const;
+  unique_ptr<Simulator> replay(const Scene& drawn) const;
 };
 
-/// The run in `folder`, of this version of the program. `file`: its scene.yaml, from which the scene is read.
-/// It must be complete, except for the files that are `spared`, given the run without its scene.
-/// Throws SceneError, and ExportError with a text that names the remedy.
+/// Whether a file of the run may be missing or changed.
 using SparedFile = function<bool(const FormerRun& run, string_view name)>;
+
+/// The run in `folder`, of this version of the program. `file`: its scene.yaml, from which the scene is read.
+/// It must be complete, except for the files that are `spared`.
+/// Throws SceneError, and ExportError with a text that names the remedy.
 FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFile& spared);
 
 /// The path of a run's scene.yaml. Throws ExportError if the folder cannot be that of a complete run.

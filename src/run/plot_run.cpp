@@ -3,9 +3,9 @@
 
 #include <fcntl.h>
 
+#include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/series.h"
 #include "files/stored_file.h"
@@ -67,7 +67,7 @@ class RunPlotter {
 
  private:
   void write(const vector<ChartFile>& drawn) {
-    OpenFolder folder(request_.folder);
+    FolderWriter folder(request_.folder);
     vector<FileRecord> records = in_place_ ? kept_files() : folder.begin(*request_.scene, read_meshes(*request_.scene));
     if (in_place_) folder.renew(*request_.scene, {});
 

@@ -19,7 +19,7 @@ set<string> painted_meshes(const Scene& scene) {
     if (mesh && mesh->own_colors) files.insert(mesh->file);
   };
   for (const BodyRange& range : scene.roster.bodies) add(range.mesh);
-  for (const FixedName& fixed : scene.roster.fixed)
+  for (const FixedLook& fixed : scene.roster.fixed)
     if (fixed.visible) add(fixed.mesh);
   return files;
 }

@@ -3,7 +3,7 @@
 // The state is computed only if something is due.
 #include "run/stage.h"
 
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "render/camera.h"
 #include "render/glb.h"
 #include "render/still_things.h"

@@ -7,7 +7,7 @@
 
 #include "export/flights_file.h"
 #include "files/failed_run.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/publication.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
@@ -79,7 +79,7 @@ struct Nearest {
 }
 
 State state_in_flights(const FormerRun& run, double at) {
-  const unique_ptr<Simulator> replay = run.motion(run.scene);
+  const unique_ptr<Simulator> replay = run.replay(run.scene);
   while (replay->time() < at) replay->advance_to(at);
   return replay->state();
 }
@@ -125,7 +125,7 @@ bool lacks_impulses(const Scene& scene, double at) {
 
 /// Throws StartError, and what reading files throws.
 FormerState state_of(const FormerRun& run, optional<double> at) {
-  const double end = run.end();
+  const double end = run.read_end_time();
   if (at && !(*at >= 0 && *at <= end))
     throw StartError(fmt::format("it ended at {} s, before {} s", shortest(end), shortest(*at)),
                      fmt::format("expected `at` from 0 to {} s", shortest(end)), true);

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "export/tables.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
@@ -51,7 +51,7 @@ class ChartReader {
 
  private:
   void paths() {
-    const unique_ptr<Simulator> motion = former_.motion(scene_);
+    const unique_ptr<Simulator> motion = former_.replay(scene_);
     Timeline timeline(end_of(scene_));
     for (const Ticks& ticks : {charts_.ticks.energy, charts_.ticks.heights}) timeline.add(ticks);
     while (timeline.advance()) {

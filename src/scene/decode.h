@@ -34,7 +34,7 @@ struct FixedEntry {
 };
 
 /// Share of the coordinates: a smaller region, or a shorter string, is lost in the rounding of positions.
-inline constexpr double smallest_share = 0x1p-40;
+inline constexpr double least_share_of_coordinates = 0x1p-40;
 
 /// One string, in the order of the file.
 struct StringEntry {
@@ -78,7 +78,7 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
 void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the lengths of strings, and checks them against the distances of their ends. Bodies must be decoded before.
 void decode_lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
-/// Decodes the regions, and those of `simulate.stop`. Bodies need not be decoded before.
+/// Decodes the regions, and `simulate.stop`. Bodies need not be decoded before.
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.
 void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);

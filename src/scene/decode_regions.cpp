@@ -32,11 +32,11 @@ WorldRegion decode_region(const View& view, const string& name, const Inventory&
   } else if (const optional<Volume> volume = volume_of(keys); volume && keys.position) {
     region.position = *keys.position;
     region.volume = *volume;
-    const double size = 2 * volume->half.minCoeff(), far = region.position.cwiseAbs().maxCoeff();
-    if (size < smallest_share * far)
+    const double width = 2 * volume->half.minCoeff(), far = region.position.cwiseAbs().maxCoeff();
+    if (width < least_share_of_coordinates * far)
       diagnostics.add(
           view.place("position"),
-          fmt::format("{} is {} m wide and {} m from the origin", in_backticks(name), shortest(size), shortest(far)),
+          fmt::format("{} is {} m wide and {} m from the origin", in_backticks(name), shortest(width), shortest(far)),
           "doubles do not resolve it there: bring it nearer, or make it larger");
   }
 
@@ -47,12 +47,12 @@ WorldRegion decode_region(const View& view, const string& name, const Inventory&
   return region;
 }
 
-class Regions {
+class RegionDecoder {
  public:
-  Regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
+  RegionDecoder(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics)
       : root_(root), inventory_(inventory), scene_(scene), diagnostics_(diagnostics) {}
 
-  void run() {
+  void decode() {
     const Node* regions = root_.find("regions");
     for (size_t i = 0; regions != nullptr && regions->is_map() && i < regions->keys.size(); ++i) {
       const Key& key = regions->keys[i];
@@ -60,6 +60,7 @@ class Regions {
         diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),
                          "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene");
 
+      // What is repeated no time has no members, which would have taken its place.
       if (regions->items[i].is_map() && regions->items[i].find_key("repeat") != nullptr) continue;
       const View view(&regions->items[i], kind_named("region"), key.place);
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
@@ -68,21 +69,22 @@ class Regions {
 
     const Node* stops = scene_part(root_, "simulate").given("stop");
     if (stops == nullptr || !stops->is_sequence()) return;
-    for (const Node& stop : stops->items) stop.is_map() ? add(stop) : add_word(stop);
+    for (const Node& stop : stops->items) stop.is_map() ? take_stop(stop) : take_word(stop);
   }
 
  private:
-  void add_word(const Node& word) {
+  void take_word(const Node& word) {
     if (!word.bad && word.text == "rest") scene_.simulate.stop_at_rest = true;
   }
 
-  void add(const Node& node) {
+  void take_stop(const Node& node) {
     const auto [collisions, region] = filled<StopKeys>(View(&node, kind_named("stop"), node.place));
+    // Of several numbers the first that is reached.
     if (collisions)
       scene_.simulate.stop_collisions = min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is_scalar()) return;
 
-    // A region, all members of a repeated one, or one that is repeated no time.
+    // A region, all members of a repeated one, or a repeated one without members.
     const vector<string>& names = scene_.roster.regions;
     const vector<EmptyFamily>& empty = scene_.roster.empty;
     bool found = any_of(empty, [&name = region->text](const EmptyFamily& family) {
@@ -90,8 +92,11 @@ class Regions {
     });
 
     for (size_t r = 0; r < names.size(); ++r) {
-      if (names[r] != region->text && (region->text.empty() || family_of(names[r]) != region->text)) continue;
-      scene_.world.regions[r].stops = found = true;
+      // family_of is empty for what is not repeated.
+      const bool meant = names[r] == region->text || (!region->text.empty() && family_of(names[r]) == region->text);
+      if (!meant) continue;
+      scene_.world.regions[r].stops = true;
+      found = true;
     }
 
     if (found) return;
@@ -109,7 +114,7 @@ class Regions {
 }  // namespace
 
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
-  Regions(root, inventory, scene, diagnostics).run();
+  RegionDecoder(root, inventory, scene, diagnostics).decode();
 }
 
 }  // namespace carom

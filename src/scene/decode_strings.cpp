@@ -118,7 +118,7 @@ class Lengths {
 
     string.length = given.value_or(distance);
     const double length = string.length;
-    if (length < smallest_share * far) {
+    if (length < least_share_of_coordinates * far) {
       diagnostics_.add(
           view.place("length"),
           fmt::format("{} is {} m long and {} m from the origin", in_backticks(name), shortest(length), shortest(far)),

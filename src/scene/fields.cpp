@@ -90,7 +90,7 @@ template <typename Keys> constexpr Field color = row_if_given<Keys, &Keys::color
 constexpr Field mesh = row<BodyKeys, &BodyKeys::mesh>("mesh", "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", "meshes/duck.obj", {.type = Type::file, .drawn = true});
 constexpr Field ball_position = row<BodyKeys, &BodyKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true});
 
-// The members of a repeated thing replace it before its map is checked and decoded (repeat.h).
+// The members of a repeated thing replace it before its map is checked and decoded (expand.h).
 constexpr Field repeat = row("repeat", "Makes members name.0, name.1, ... of this map. Its expressions may contain the index i, or the indices named here; the last one varies fastest.", "{i: 6, j: 4}", {.type = Type::repeat, .title = "Number of members", .own = true});
 
 constexpr Field ball_fields[] = {

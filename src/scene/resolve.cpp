@@ -178,7 +178,7 @@ class Resolver {
 
   string fixed_text(const FixedEntry& thing) const {
     const View& view = thing.view;
-    const FixedName& known = scene_.roster.fixed[thing.first];
+    const FixedLook& known = scene_.roster.fixed[thing.first];
     Overrides overrides;
     add_color(view, known.color, known.mesh, overrides);
     if (view.kind().name == "wall" && view.find("up") == nullptr)

@@ -51,7 +51,7 @@ struct BodyRange {
   string_view thing() const;
 };
 
-struct FixedName {
+struct FixedLook {
   /// room.x_min etc. for the planes of a room.
   string name;
   Color color;
@@ -69,7 +69,7 @@ struct EmptyFamily {
 struct Roster {
   vector<BodyRange> bodies;  // ordered by first body
   /// By entity: the planes, the walls, the obstacles.
-  vector<FixedName> fixed;
+  vector<FixedLook> fixed;
   vector<string> strings;                        // by number in World::strings
   vector<string> regions;                        // by number in World::regions
   vector<EmptyFamily> empty;                     // in no particular order

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "compare/comparison_plan.h"
 #include "compare/outcomes.h"
-#include "compare/plan.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "scene/film_format.h"
 #include "scene/sweep.h"

@@ -10,8 +10,8 @@
 #include <tuple>
 
 #include "files/folder_names.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"

@@ -16,8 +16,8 @@
 #include "files/copied_run.h"
 #include "files/csv.h"
 #include "files/folder_names.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
 #include "files/stored_file.h"
@@ -48,7 +48,7 @@ optional<Manifest> read_sweep_manifest(int folder) {
 }
 
 bool is_whole(int folder, const string& path, const Sweep& sweep, const Manifest& manifest) {
-  if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, is_picture).empty()) return false;
+  if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, depends_on_look).empty()) return false;
   const string mark = path + "/" + manifest_name;
   set<string> absent(manifest.failed.begin(), manifest.failed.end());
   for (auto& [id, errors] : stored_skips(path)) absent.insert(std::move(id));
@@ -84,13 +84,13 @@ SweepContent inspect_sweep_folder(const string& path, const Sweep& sweep, const 
   const FoundFolder found = find_folder(path);
   if (found.content == FolderContent::nothing || found.content == FolderContent::incomplete)
     return SweepContent::nothing;
-  if (found.folder && has_begun(found, sweep)) return SweepContent::incomplete;
+  if (found.folder && has_begun(found, sweep)) return SweepContent::same_runs;
   if (!found.folder || !has_runs_of(found.folder.get(), sweep, base_text)) return SweepContent::other;
   if (read_text(found.folder.get(), stored_sweep, largest) != sweep.resolved(stored_base))
-    return SweepContent::incomplete;
+    return SweepContent::same_runs;
   const auto manifest = read_sweep_manifest(found.folder.get());
   const bool whole = manifest && is_whole(found.folder.get(), path, sweep, *manifest);
-  return whole ? SweepContent::this_sweep : SweepContent::incomplete;
+  return whole ? SweepContent::this_sweep : SweepContent::same_runs;
 }
 
 bool is_ended_sweep(const string& path) {
@@ -140,7 +140,7 @@ SweepFolder::SweepFolder(const string& path, Use use, const Sweep& sweep, const 
   const string busy =
       "another sweep, or another part of this one, is writing into it; wait for it, or name another folder with -o";
 
-  if (use == Use::alone) {
+  if (use == Use::exclusive) {
     if (!lock_folder(place_, LockKind::alone)) fail("write", place_, "", busy);
     finish_publication(place_, Durability::synced);
     for (const char* name : {summary_name, repeats_name, workbook_name}) refuse_folder(place_, name);

@@ -4,7 +4,7 @@
 // Equal sweeps give equal bytes, however many parts they were computed in.
 
 #include "compare/comparison.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "files/output_file.h"
 #include "scene/sweep.h"
 #include "std.h"
@@ -22,7 +22,7 @@ enum class SweepContent {
   /// This very sweep, complete: nothing to do.
   this_sweep,
   /// All or some runs of this sweep, perhaps with another comparison.
-  incomplete,
+  same_runs,
   /// Another sweep's, or files that no sweep wrote.
   other
 };
@@ -55,15 +55,15 @@ ComparisonPlan comparison_plan(const Sweep& sweep, const string& base_text);
 class SweepFolder {
  public:
   enum class Use {
-    /// Exclusive: no other process may write into it.
-    alone,
+    /// No other process may write into it.
+    exclusive,
     /// Shared with other parts of the same sweep.
     part
   };
   /// Makes the folder if needed and locks it. Writes sweep.yaml, base.yaml and skipped.csv unless they exist.
   /// `skipped`: the text of the latter.
-  /// Runs of another sweep are removed. Waits up to 30 s for other processes that do the same.
-  /// `stop_check` is called meanwhile and may throw. Throws ExportError, as all functions of this class do.
+  /// Runs of another sweep are removed: ask inspect_sweep_folder before. Waits up to 30 s for other processes that do
+  /// the same. `stop_check` is called meanwhile and may throw. Throws ExportError, as all functions of this class do.
   SweepFolder(const string& path, Use use, const Sweep& sweep, const string& base_text, const string& skipped,
               const function<void()>& stop_check);
 

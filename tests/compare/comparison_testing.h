@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "compare/comparison.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "run/run_scene.h"
 #include "scene/load.h"
 #include "std.h"

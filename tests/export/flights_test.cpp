@@ -5,8 +5,8 @@
 
 #include "export/export_testing.h"
 #include "export/same_piece.h"
+#include "files/folder_writer.h"
 #include "files/hash.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -259,7 +259,7 @@ TEST(Frames, APictureThatIsTheLastOneAgainIsNotEncodedAgain) {
 
 /// Writes 40 frames with so many threads, and gives the records.
 vector<FileRecord> frames_by(size_t threads, const string& path) {
-  OpenFolder folder(path, Durability::deferred);
+  FolderWriter folder(path, Durability::deferred);
   FrameFiles frames(folder, threads);
   for (int i = 0; i < 40; ++i) frames.put(i, picture({64, 36}, i / 3), i % 3 > 0);
   frames.finish();
@@ -288,7 +288,7 @@ TEST(Frames, AFrameThatCannotBeWrittenIsNamedWhateverTheThreads) {
   for (const size_t threads : {1U, 4U}) {
     TempFolder temp;
     fs::create_directories(temp / "run/frames/frame_00007.png/in_the_way");
-    OpenFolder folder(temp / "run", Durability::deferred);
+    FolderWriter folder(temp / "run", Durability::deferred);
     const string error = error_of([&] {
       FrameFiles frames(folder, threads);
       for (int i = 0; i < 40; ++i) frames.put(i, picture({64, 36}, i), false);

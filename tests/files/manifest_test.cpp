@@ -4,7 +4,7 @@
 #include <fcntl.h>
 
 #include "export/export_testing.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "std.h"
 
 namespace carom {

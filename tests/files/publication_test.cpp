@@ -8,8 +8,8 @@
 
 #include "export/export_testing.h"
 #include "files/folder_names.h"
+#include "files/folder_writer.h"
 #include "files/manifest.h"
-#include "files/open_folder.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "scene/scene.h"

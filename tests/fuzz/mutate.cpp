@@ -12,20 +12,20 @@ uint64_t Mutator::draw(uint64_t below) {
 void Mutator::change(string& bytes) {
   const size_t at = draw(bytes.size() + 1), length = std::min<size_t>(1 + draw(16), bytes.size() - at);
   switch (draw(8)) {
-    case 0:
+    case 0:  // a bit
       if (length > 0) bytes[at] = static_cast<char>(bytes[at] ^ (1 << draw(8)));
       break;
-    case 1:
+    case 1:  // a byte
       if (length > 0) bytes[at] = static_cast<char>(draw(256));
       break;
 
-    case 2:
+    case 2:  // a part removed
       bytes.erase(at, length);
       break;
-    case 3:
+    case 3:  // a part doubled
       bytes.insert(at, bytes.substr(at, length));
       break;
-    case 4:
+    case 4:  // cut off
       bytes.resize(at);
       break;
 
@@ -45,7 +45,7 @@ void Mutator::change(string& bytes) {
         }
       break;
 
-    default:
+    default:  // a word
       if (!words_.empty()) bytes.insert(at, words_[draw(words_.size())]);
   }
 }

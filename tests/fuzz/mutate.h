@@ -1,5 +1,6 @@
 #pragma once
-// Mutated inputs: bytes changed, removed, doubled, joined, words inserted. Determined by the seed on every machine.
+// Mutated inputs: bytes changed, removed, doubled, cut off, joined, other numbers, words inserted. Determined by the
+// seed on every machine.
 
 #include "std.h"
 

@@ -16,6 +16,7 @@ struct Target {
   void (*run)(string_view bytes);  // throws Finding; any other exception is a finding too
   vector<string> (*seeds)();       // initial inputs
   size_t longest;                  // bytes of an input
+  int tries = 3000;                // mutated inputs in the short test
 };
 
 span<const Target> targets();

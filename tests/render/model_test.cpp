@@ -92,7 +92,7 @@ TEST(StillThings, TrianglesFaceTheFreeSide) {
 
 TEST(StillThings, WhatIsNotVisibleIsNotThere) {
   Scene scene = room();
-  for (FixedName& name : scene.roster.fixed) name.visible = false;
+  for (FixedLook& name : scene.roster.fixed) name.visible = false;
   EXPECT_TRUE(still_things(scene, {}, false).empty());
 }
 

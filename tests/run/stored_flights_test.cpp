@@ -5,7 +5,7 @@
 #include "export/export_testing.h"
 #include "export/flights_file.h"
 #include "export/same_piece.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "physics/world.h"
 #include "run/engine.h"
 #include "run/replay.h"

@@ -1,4 +1,4 @@
-// What a sweep's folder holds, and what stands there besides its runs.
+// What a sweep's folder holds, what stands there besides its runs, and the plan of its comparison.
 #include "study/sweep_folder.h"
 
 #include <gtest/gtest.h>
@@ -19,9 +19,10 @@ SweepContent content(const SweepPlace& place, const string& lines) {
 
 /// Does all runs of a sweep, and finishes its folder.
 void finish(const SweepPlace& place, const string& lines) {
+  // While the runs are done, the folder is locked by another object.
   SweepJob job = place.planned(lines);
   EXPECT_TRUE(place.do_runs(job).empty());
-  SweepFolder folder(place / "out", SweepFolder::Use::alone, job.sweep(), job.base_text(),
+  SweepFolder folder(place / "out", SweepFolder::Use::exclusive, job.sweep(), job.base_text(),
                      skipped_text(job.sweep(), job.invalid()), [] {});
   vector<RunStatus> statuses;
   for (const PlannedRun& run : job.runs()) statuses.push_back(run.status);
@@ -35,11 +36,11 @@ TEST(SweepContent, IsNothingBeforeAnyRun) {
   EXPECT_EQ(content(place, two_masses), SweepContent::nothing);
 }
 
-TEST(SweepContent, IsIncompleteUntilTheFolderIsFinished) {
+TEST(SweepContent, IsRunsOfThisSweepUntilTheFolderIsFinished) {
   const SweepPlace place;
   SweepJob job = place.planned(two_masses);
   place.do_runs(job);
-  EXPECT_EQ(content(place, two_masses), SweepContent::incomplete);
+  EXPECT_EQ(content(place, two_masses), SweepContent::same_runs);
   EXPECT_FALSE(is_ended_sweep(place / "out"));
 
   finish(place, two_masses);
@@ -50,8 +51,8 @@ TEST(SweepContent, IsIncompleteUntilTheFolderIsFinished) {
 TEST(SweepContent, WithAnotherComparisonHasTheSameRuns) {
   const SweepPlace place;
   finish(place, two_masses);
-  EXPECT_EQ(content(place, two_masses + "compare: {measures: [energy_lost_J]}\n"), SweepContent::incomplete);
-  EXPECT_EQ(content(place, "title: Another\n" + two_masses), SweepContent::incomplete);
+  EXPECT_EQ(content(place, two_masses + "compare: {measures: [energy_lost_J]}\n"), SweepContent::same_runs);
+  EXPECT_EQ(content(place, "title: Another\n" + two_masses), SweepContent::same_runs);
 }
 
 TEST(SweepContent, OfOtherValuesOrAnotherBaseIsOther) {
@@ -72,14 +73,14 @@ TEST(SweepContent, WithAChangedTableIsIncomplete) {
   const SweepPlace place;
   finish(place, two_masses);
   place.write("out/summary.csv", "changed");
-  EXPECT_EQ(content(place, two_masses), SweepContent::incomplete);
+  EXPECT_EQ(content(place, two_masses), SweepContent::same_runs);
 }
 
 TEST(SweepFolder, RemovesTheRunsOfAnotherSweep) {
   const SweepPlace place;
   finish(place, two_masses);
   const Sweep other = place.sweep("grid: {balls.red.mass: [5]}\n");
-  const SweepFolder folder(place / "out", SweepFolder::Use::alone, other, place.read("base.yaml"), "", [] {});
+  const SweepFolder folder(place / "out", SweepFolder::Use::exclusive, other, place.read("base.yaml"), "", [] {});
   EXPECT_FALSE(std::filesystem::exists(place / "out/runs/r0001"));
   EXPECT_EQ(place.read("out/sweep.yaml"), other.resolved(stored_base));
 }
@@ -92,7 +93,7 @@ TEST(SweepFolder, KeepsTheRunsOfTheSameSweep) {
   EXPECT_TRUE(std::filesystem::exists(place / "out/runs/r0002/summary.csv"));
 }
 
-TEST(SweepFolder, IsSharedByPartsAlone) {
+TEST(SweepFolder, IsSharedOnlyByParts) {
   const SweepPlace place;
   const Sweep sweep = place.sweep(two_masses);
   const auto use = [&](SweepFolder::Use how) {
@@ -100,7 +101,7 @@ TEST(SweepFolder, IsSharedByPartsAlone) {
   };
   const SweepFolder one = use(SweepFolder::Use::part);
   EXPECT_NO_THROW(use(SweepFolder::Use::part));
-  EXPECT_THROW(use(SweepFolder::Use::alone), ExportError);
+  EXPECT_THROW(use(SweepFolder::Use::exclusive), ExportError);
 }
 
 TEST(Skipped, RunsAreReadAsTheyWereWritten) {
@@ -116,7 +117,7 @@ TEST(Skipped, RunsAreReadAsTheyWereWritten) {
   EXPECT_EQ(skips[0].second, "no mass, \"red\"");
 }
 
-TEST(Skipped, RunsOfNoneHaveNoFile) {
+TEST(Skipped, NoRunsHaveNoFile) {
   const SweepPlace place;
   EXPECT_EQ(skipped_text(place.sweep(two_masses), {}), "");
   EXPECT_TRUE(stored_skips(place / "out").empty());

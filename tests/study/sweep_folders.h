@@ -44,7 +44,7 @@ struct SweepPlace : Place {
 
   /// Begins the folder `out`, and does the job's runs. Returns the failures: "r0001: why".
   vector<string> do_runs(SweepJob& job) const {
-    const SweepFolder folder(*this / "out", SweepFolder::Use::alone, job.sweep(), job.base_text(),
+    const SweepFolder folder(*this / "out", SweepFolder::Use::exclusive, job.sweep(), job.base_text(),
                              skipped_text(job.sweep(), job.invalid()), [] {});
     vector<string> failures;
     job.run([](const SweepProgress&) {},

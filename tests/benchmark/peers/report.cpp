@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "files/csv.h"
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 #include "physics/world.h"
 #include "scene/scene.h"
 

@@ -17,16 +17,16 @@ struct Scene;
 /// In the folder of an interrupted run, also removes what runs write beside scene.yaml. Throws ExportError.
 void remove_files_of_run(const FilePlace& place);
 
-class OpenFolder {
+class FolderWriter {
  public:
   /// Makes the folder and its parents if needed, locks it against other runs, and finishes an interrupted publication.
   /// Throws ExportError, as all functions of this class do.
-  explicit OpenFolder(const string& path, Durability durability = Durability::synced);
+  explicit FolderWriter(const string& path, Durability durability = Durability::synced);
   /// Where a checkpoint stands (checkpoint_file.h), and after publish(), all stays. Else the run's temporary files are
   /// removed; and without keep() scene.yaml, meshes, and folders that this run made and that are then empty.
-  ~OpenFolder();
-  OpenFolder(const OpenFolder&) = delete;
-  OpenFolder& operator=(const OpenFolder&) = delete;
+  ~FolderWriter();
+  FolderWriter(const FolderWriter&) = delete;
+  FolderWriter& operator=(const FolderWriter&) = delete;
 
   const FilePlace& place() const { return place_; }
 

@@ -2,7 +2,7 @@
 // At every moment the folder is in a state that inspect_folder classifies correctly, even if the process is killed.
 // The manifest is therefore moved aside before the files that it names are removed.
 // The file scene.yaml marks an unfinished run, so it is written first and removed last.
-#include "files/open_folder.h"
+#include "files/folder_writer.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -62,7 +62,7 @@ void remove_files_of_run(const FilePlace& place) {
   remove_file(place, "scene.yaml");
 }
 
-OpenFolder::OpenFolder(const string& path, Durability durability) : durability_(durability) {
+FolderWriter::FolderWriter(const string& path, Durability durability) : durability_(durability) {
   place_.path = path.empty() ? "." : path;
   while (place_.path.size() > 1 && place_.path.ends_with('/')) place_.path.pop_back();
 
@@ -81,7 +81,7 @@ OpenFolder::OpenFolder(const string& path, Durability durability) : durability_(
   }
 }
 
-void OpenFolder::lock() {
+void FolderWriter::lock() {
   // A run that fails removes the folder that it made. A run that had just opened that folder makes it again.
   for (int attempt = 0; attempt < 10; ++attempt) {
     made_ = mkdir(place_.path.c_str(), 0777) == 0;
@@ -104,7 +104,7 @@ void OpenFolder::lock() {
   fail("open", place_, "", "it is a dangling link, or another program removes it");
 }
 
-OpenFolder::~OpenFolder() {
+FolderWriter::~FolderWriter() {
   if (renews_) {
     first_files_.clear();
     // Nothing was committed, so the remaining temporary folders are removed.
@@ -124,7 +124,7 @@ OpenFolder::~OpenFolder() {
 }
 
 /// Those that a checkpoint counted on.
-void OpenFolder::remove_own_parts() const {
+void FolderWriter::remove_own_parts() const {
   try {
     remove_parts(place_);
   } catch (const ExportError&) {
@@ -133,7 +133,7 @@ void OpenFolder::remove_own_parts() const {
 }
 
 /// Refuses in advance what would make the renaming fail: a folder in a file's place, or a file in a series' place.
-void OpenFolder::refuse_folders(const Scene& scene) const {
+void FolderWriter::refuse_folders(const Scene& scene) const {
   for (const string& name : run_files(scene, scene.output)) refuse_folder(place_, name);
   for (const OutputKind& kind : output_kinds()) {
     if (kind.series.folder.empty() || !kind.asked(scene.output)) continue;
@@ -144,14 +144,14 @@ void OpenFolder::refuse_folders(const Scene& scene) const {
 }
 
 /// Writes one of the first files.
-void OpenFolder::put(const string& name, const string& bytes) {
+void FolderWriter::put(const string& name, const string& bytes) {
   OutputFile file(place_, name);
   file.write(bytes);
   file.publish();
   begun_.push_back(file.record());
 }
 
-vector<FileRecord> OpenFolder::begin(const Scene& scene, const vector<MeshCopy>& meshes) {
+vector<FileRecord> FolderWriter::begin(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   const int folder = place_.folder;
 
@@ -180,7 +180,7 @@ vector<FileRecord> OpenFolder::begin(const Scene& scene, const vector<MeshCopy>&
   return begun_;
 }
 
-vector<FileRecord> OpenFolder::go_on(const Scene& scene, const vector<MeshCopy>& meshes) {
+vector<FileRecord> FolderWriter::go_on(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   put("scene.yaml", scene.resolved);
   for (const MeshCopy& mesh : meshes) put(mesh.name, mesh.bytes);
@@ -188,7 +188,7 @@ vector<FileRecord> OpenFolder::go_on(const Scene& scene, const vector<MeshCopy>&
   return begun_;
 }
 
-vector<FileRecord> OpenFolder::renew(const Scene& scene, const vector<MeshCopy>& meshes) {
+vector<FileRecord> FolderWriter::renew(const Scene& scene, const vector<MeshCopy>& meshes) {
   refuse_folders(scene);
   renews_ = true;
   remove_leavings(place_);
@@ -206,13 +206,13 @@ vector<FileRecord> OpenFolder::renew(const Scene& scene, const vector<MeshCopy>&
   return records;
 }
 
-FilePlace OpenFolder::series(const FileSeries& series) {
+FilePlace FolderWriter::series(const FileSeries& series) {
   const string name = renews_ ? part_name(series.folder) : string(series.folder);
   series_.push_back(make_folder(place_, name));
   return {series_.back().get(), place_.path + "/" + name};
 }
 
-void OpenFolder::publish(vector<PartFile*> files, OutputFile& manifest) {
+void FolderWriter::publish(vector<PartFile*> files, OutputFile& manifest) {
   for (const auto& file : first_files_) files.push_back(file.get());
   try {
     carom::publish(place_, durability_, files, manifest);

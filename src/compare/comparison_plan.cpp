@@ -1,5 +1,5 @@
 // Charts and measures are checked before the first run is read.
-#include "compare/plan.h"
+#include "compare/comparison_plan.h"
 
 #include <fmt/format.h>
 

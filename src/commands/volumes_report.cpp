@@ -1,5 +1,5 @@
 // In text, things with equal volumes share one entry, and a group has one entry. JSON has an entry for each name.
-#include "commands/volumes.h"
+#include "commands/volumes_report.h"
 
 #include <fmt/format.h>
 
