@@ -59,10 +59,12 @@ class StoredTrajectory {
     for (; is_here(); row_ = table_.next()) {
       if (row_->size() != table_.columns().size()) throw ForeignRow();
       layout_.for_each(*row_, [&](string_view name, size_t first) {
-        while (body < names_.size() && names_[body] != name) ++body;
-        if (body == names_.size()) throw ForeignRow();
+        // Wide, a row has every body.
+        while (body < names_.size() && names_[body] != name && !layout_.is_wide()) ++body;
+        if (body == names_.size() || names_[body] != name) throw ForeignRow();
         take(body++, *row_, first);
       });
+      if (layout_.is_wide() && body != names_.size()) throw ForeignRow();
     }
   }
 

@@ -145,7 +145,7 @@ class ParseFailure {
       return true;
     }
     if (complaint_has("unknown escape")) {
-      add(detected_ > 0 ? detected_ - 1 : 0, "an unknown escape in a text in double quotes",
+      add(detected_ - min<size_t>(detected_, 2), "an unknown escape in a text in double quotes",
           "in single quotes a backslash is just a backslash", 2);
       return true;
     }
