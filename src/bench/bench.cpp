@@ -161,7 +161,7 @@ class Bench {
       }
 
       method.steps.length = step;
-      const double rows = double(result_.rows.size()) / double(4 * steps_.size() + 1);
+      const double rows = double(result_.rows.size()) / double(4 * steps_.size() + 5);
       watch_.report_progress(0.5 * max(rows, min(1.0, spent() / options_.budget)), full_name_of(method));
 
       BenchRow row;
@@ -262,7 +262,7 @@ class Bench {
   const BenchOptions& options_;
   const BenchWatch& all_;
   BenchWatch watch_;  // of all but the qualities of crowds
-  double share_ = 1;  // of the bench, that these are not
+  double share_ = 1;  // of the bench: all but the qualities
   const double start_ = cpu_time();
   double left_ = 0;       // s of CPU time for the rows
   vector<double> steps_;  // s, from the longest

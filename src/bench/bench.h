@@ -16,7 +16,7 @@ struct Scene;
 /// A method, its cost and its error.
 struct BenchRow {
   SimulationMethod method;
-  /// Empty: the run reached its end, and all other members are set.
+  /// Empty: the run reached its end.
   string failure;
   /// Of one run, the median of `repeats`.
   double cpu_s = 0;

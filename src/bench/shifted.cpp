@@ -1,5 +1,5 @@
-// Moves bodies, fixed things, anchors of springs and strings, and centres of attractors by an irrational share of the
-// extent. All digits of their positions then change.
+// Moves bodies, and all places of the world (physics/places.h), by an irrational share of the extent. All digits of
+// their positions then change.
 #include "bench/shifted.h"
 
 #include "physics/places.h"

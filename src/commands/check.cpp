@@ -149,13 +149,13 @@ string out_of_view_text(const PlannedScene& planned, const CameraPreview& view) 
 string crossings_text(const PlannedScene& planned, const Findings& findings) {
   if (!findings.camera->out_of_view) return unknown_view;
   const Foresight& foresight = findings.foresight;
-  const vector<Crossing>& all = foresight.crossings;
+  const vector<ViewChange>& all = foresight.crossings;
 
   // A text for the bodies that enter, or leave, at one instant.
   vector<string> texts;
   size_t i = 0;
   while (i < all.size() && texts.size() < crossings_shown) {
-    const Crossing& first = all[i];
+    const ViewChange& first = all[i];
     vector<string> names;
     for (; i < all.size() && all[i].time == first.time && all[i].enters == first.enters; ++i)
       names.push_back(planned.scene->roster.name(all[i].body));
@@ -284,7 +284,7 @@ Json collision_json(const Scene& scene, const Collision& c) {
 
 Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresight& foresight) {
   Json crossings = Json::array();
-  for (const Crossing& crossing : foresight.crossings) {
+  for (const ViewChange& crossing : foresight.crossings) {
     if (crossings.size() == crossings_listed) break;
     crossings.push_back(
         {{"time_s", crossing.time}, {"body", scene.roster.name(crossing.body)}, {"enters", crossing.enters}});

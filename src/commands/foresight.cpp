@@ -9,7 +9,9 @@
 #include "commands/crowd_ahead.h"
 #include "commands/interrupt.h"
 #include "commands/preview.h"
+#include "export/picture_streams.h"
 #include "export/timeline.h"
+#include "physics/body_now.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
@@ -24,23 +26,26 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// The instants of the pictures; if there are too many, the largest allowed number, evenly spaced.
+/// The instants of the pictures. Of several outputs: from the first one on at the least of their intervals. If there
+/// are too many, the largest allowed number, evenly spaced.
 Ticks instants_of(const Scene& scene, Foresight& result) {
   constexpr int64_t most = 2000;
-  const Output& output = scene.output;
-  double fps = 30, from = 0, until = scene.simulate.duration;
-  if (output.frames || output.video) {
-    fps = output.frames ? output.frames->fps : output.video->fps / output.video->speed;
-    from = output.frames ? output.frames->from : output.video->from;
-    until = (output.frames ? output.frames->until : output.video->until).value_or(until);
+  vector<Ticks> shown = shown_instants(scene);
+  std::erase_if(shown, [](const Ticks& ticks) { return ticks.count() < 1; });
+  if (shown.empty()) return Ticks::even(0, 0, 0);
+
+  double from = infinity, until = 0, interval = infinity;
+  for (const Ticks& ticks : shown) {
+    from = min(from, ticks.at(ticks.first()));
+    until = max(until, ticks.at(ticks.last()));
+    if (ticks.count() > 1) interval = min(interval, ticks.interval());
   }
 
-  if ((until - from) * fps > most) fps = most / (until - from);
-  const Ticks ticks = Ticks::rate(fps, from, until);
-  if (ticks.count() < 1) return ticks;
-
-  result.every = 1 / fps;
-  result.watched_from = result.watched_until = ticks.at(ticks.first());
+  const double count = from < until ? 1 + std::round((until - from) / interval) : 1;
+  const bool all = shown.size() == 1 && count <= most;
+  const Ticks ticks = all ? shown.front() : Ticks::even(int64_t(min(count, double(most))), from, until);
+  result.every = ticks.count() > 1 ? ticks.interval() : 0;
+  result.watched_from = result.watched_until = from;
   return ticks;
 }
 
@@ -68,8 +73,10 @@ class Trial {
 
       while (oracle_->time() < scene_.simulate.duration && needs_more()) advance();
       if (!result_.first && oracle_->time() < scene_.simulate.duration)
-        result_.trouble = fmt::format("there is none until {:.3g} s, and a second of motion takes {:.2g} s",
-                                      oracle_->time(), advance_s_ / oracle_->time());
+        result_.trouble = oracle_->time() > 0
+                              ? fmt::format("there is none until {:.3g} s, and a second of motion takes {:.2g} s",
+                                            oracle_->time(), advance_s_ / oracle_->time())
+                              : fmt::format("the simulation had not begun after {:.2g} s", since(start_));
     } catch (const SimulationError& error) {
       (result_.first ? result_.failure : result_.trouble) =
           error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); }).what();
@@ -135,12 +142,15 @@ class Trial {
   void check_view_if_due() {
     if (next_ > last_ || oracle_->time() < ticks_.at(next_)) return;
     const State& state = oracle_->state();
-    const bool begins = in_view_.empty();
-    in_view_.resize(state.position.size());
     const Camera camera = camera_->at(state);
     const CameraFrame view = view_of(camera, camera_->size());
+
+    const bool begins = in_view_.empty();
+    in_view_.resize(state.position.size());
     for (Entity body = 0; body < in_view_.size(); ++body) {
-      const bool in_view = is_sphere_in_view(camera, view, state.position[body], scene_.world.radius[body]);
+      if (is_gone(state, body)) continue;
+      const double reach = volume_now(scene_.world, state, body).reach();
+      const bool in_view = is_sphere_in_view(camera, view, state.position[body], reach);
       if (!begins && in_view != in_view_[body]) result_.crossings.push_back({body, ticks_.at(next_), in_view});
       in_view_[body] = in_view;
     }

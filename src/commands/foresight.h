@@ -14,7 +14,7 @@ class MovingCamera;
 struct Scene;
 
 /// A body enters or leaves the picture between the previous instant and this one.
-struct Crossing {
+struct ViewChange {
   Entity body;
   double time;  // s
   bool enters;
@@ -24,19 +24,21 @@ struct Foresight {
   optional<Collision> first;                   // none: no collision within the duration
   string trouble;                              // why the first collision is unknown; empty: it is known
   string failure;                              // what stops a run later, as far as was simulated; empty: nothing
-  vector<Crossing> crossings;                  // in order of time
+  vector<ViewChange> crossings;                // in order of time
   double watched_from = 0, watched_until = 0;  // s: crossings are known in between
   double every = 0;                            // s between the watched instants; 0: there were none
-  bool cut = false;                            // the budget ended before the pictures
+  bool cut = false;                            // the simulation ended before the pictures
   optional<double> simulate_s;                 // approximate wall time of the whole simulation; none: unknown
   PiecesAhead pieces;                          // roughly those of the whole motion, if flights are requested
 };
 
-/// Simulates by the most exact engine, whatever the scene names, to the first collision for at most 20 times `budget`
-/// (s), and further for at most `budget`. `camera`: of the crossings; null: none are sought.
+/// Simulates by the most exact engine, whatever the scene names, for `budget` (s), and until the first collision for at
+/// most 20 times that; then by the scene's own engine, if it is another, for `budget`. `camera`: of the crossings;
+/// null: none are sought.
 Foresight foresee(const Scene& scene, const EngineChoice& engine, const MovingCamera* camera, double budget);
 
-/// Frames the motion by the most exact engine, if the camera does that. False: it takes longer than `budget` (s).
+/// Frames the motion by the most exact engine, if the camera does that. False: it takes longer than `budget` (s), or
+/// the simulation fails.
 bool frame_motion(MovingCamera& camera, double budget);
 
 }  // namespace carom

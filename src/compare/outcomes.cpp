@@ -9,6 +9,7 @@
 #include "compare/number_look.h"
 #include "files/csv.h"
 #include "std.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -88,10 +89,7 @@ size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vec
     if (p == seed_) continue;
     const string& text = run.values.at(p);
     const auto [found, fresh] = numbers_[p].emplace(text, uint32_t(varied_[p].values.size()));
-    if (fresh) {
-      varied_[p].values.push_back(cell_of(text));
-      varied_[p].numeric = varied_[p].numeric && varied_[p].values.back().is_number();
-    }
+    if (fresh) found->second = number_of(cell_of(text), p);
     key.push_back(found->second);
   }
 
@@ -119,6 +117,20 @@ size_t Outcomes::add(size_t number, const ComparedRun& run, bool done, const vec
       values_[point * measures_ + k] = measures[k];
   }
   return point;
+}
+
+/// The index of a value of parameter p: 1.0 is 1.
+uint32_t Outcomes::number_of(Cell value, size_t p) {
+  Varied& varied = varied_[p];
+  const auto fresh = uint32_t(varied.values.size());
+  if (value.is_number()) {
+    const uint32_t known = numbers_[p].emplace(shortest(value.number), fresh).first->second;
+    if (known != fresh) return known;
+  }
+
+  varied.numeric = varied.numeric && value.is_number();
+  varied.values.push_back(std::move(value));
+  return fresh;
 }
 
 string_view Outcomes::id(size_t point) const {

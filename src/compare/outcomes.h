@@ -61,6 +61,7 @@ class Outcomes {
 
  private:
   bool follows(const Varied& a, const Varied& b) const;
+  uint32_t number_of(Cell value, size_t p);
 
   optional<size_t> seed_;
   size_t measures_, stride_;

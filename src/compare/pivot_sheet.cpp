@@ -6,13 +6,14 @@
 
 #include "compare/scenarios.h"
 #include "std.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
 
 constexpr size_t most_blocks = 6, most_labels = 250, most_formulas = 2500;
 
-/// The mean over the points with both values, by row, then column. A point counts as often as it has runs.
+/// Over the points with both values. A point counts as often as it has runs.
 struct Mean {
   double sum = 0;
   size_t count = 0;
@@ -30,9 +31,20 @@ string cell_name(size_t row, size_t column, bool row_fixed) {
   return fmt::format("{}{}{}", name, row_fixed ? "$" : "", row + 1);
 }
 
-/// Whether a formula's criterion takes the value literally: no wildcard, no comparison.
+/// Whether a formula's criterion takes the value literally: no wildcard, no comparison, no truth value, not too long.
 bool is_literal(const Cell& cell) {
-  return cell.is_number() || (!cell.text.empty() && cell.text.find_first_of("<>=*?~'") == string::npos);
+  if (cell.is_number()) return true;
+  const string text = in_lower_case(cell.text);
+  return !text.empty() && text.size() <= 255 && text.find_first_of("<>=*?~'") == string::npos && text != "true" &&
+         text != "false";
+}
+
+/// Whether criteria tell these values apart, whatever the case of their letters.
+bool are_literal(const vector<Cell>& values) {
+  set<string> texts;
+  return all_of(values, [&](const Cell& cell) {
+    return is_literal(cell) && (cell.is_number() || texts.insert(in_lower_case(cell.text)).second);
+  });
 }
 
 void add_scale(Worksheet& sheet, size_t row, size_t rows, size_t columns) {
@@ -66,7 +78,7 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
   const size_t blocks = min(measures.size(), most_blocks);
 
   // A formula takes its criteria from the cells of the heads.
-  const bool literal = all_of(down.values, is_literal) && all_of(across.values, is_literal);
+  const bool literal = are_literal(down.values) && are_literal(across.values);
   const bool formulas = summary.rows > 0 && literal && blocks * height * width <= most_formulas;
 
   const vector<string> names =
@@ -88,7 +100,7 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
   // A block for each measure: its means, then their table.
   size_t row = 3;
   for (size_t block = 0; block < blocks; ++block) {
-    vector<Mean> means(height * width);
+    vector<Mean> means(height * width);  // by row, then column
     for (size_t i = 0; i < outcomes.points(); ++i) {
       if (down.of_point[i] >= height || across.of_point[i] >= width) continue;
       const Spread spread = outcomes.spread(i, block);
@@ -105,7 +117,8 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
     sheet.text(row++, 0, label_of(measures[block].name), CellStyle::title);
     const size_t head = row++;
     sheet.text(head, 0, fmt::format("{} \\ {}", names[0], names[1]), CellStyle::header);
-    for (size_t k = 0; k < width; ++k) sheet.cell(head, 1 + k, across.values[k], CellStyle::varied_header, &across_look);
+    for (size_t k = 0; k < width; ++k)
+      sheet.cell(head, 1 + k, across.values[k], CellStyle::varied_header, &across_look);
 
     for (size_t i = 0; i < height; ++i, ++row) {
       sheet.cell(row, 0, down.values[i], CellStyle::varied, &down_look);

@@ -156,7 +156,7 @@ bool Ticks::has_times_of(const Ticks& other) const {
 
 int Ticks::decimals() const {
   constexpr int most = 6;
-  double interval = numerator_ / denominator_;
+  double interval = this->interval();
   if (count() < 2 || !(interval > 0)) interval = 1;
   const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < 1e-6; };
   double power = 1;

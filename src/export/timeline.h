@@ -22,7 +22,8 @@ class Ticks {
   int64_t first() const { return first_; }
   int64_t last() const { return last_; }  // first() - 1: none
   int64_t count() const { return last_ - first_ + 1; }
-  double at(int64_t i) const;  // s
+  double at(int64_t i) const;                                    // s
+  double interval() const { return numerator_ / denominator_; }  // s, between two of them
   /// The decimals with which times of ticks are written: all of them, if these are at most 6. Else so many that
   /// rounding is at most a twentieth of the interval.
   int decimals() const;

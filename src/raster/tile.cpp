@@ -6,6 +6,7 @@
 #include "numerics/processor.h"
 #include "numerics/srgb.h"
 #include "raster/tile_memory.h"
+#include "std.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -42,7 +43,6 @@ CAROM_END_TARGET
 namespace any_processor {
 #define WIDTH 0
 #include "raster/kernel.inc"
-#include "std.h"
 #undef WIDTH
 }  // namespace any_processor
 #endif

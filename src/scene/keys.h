@@ -1,7 +1,7 @@
 #pragma once
 // The keys of bodies, groups, fixed things, pairs, forces and the camera, with their defaults. fields.cpp joins each to
 // its row. Decoding fills these structs, and makes World, State and Roster from them. An optional member is empty if
-// the file gives no value, or a wrong one. A Node is a name or a file together with its place, for messages about it.
+// the file gives no value, or a wrong one. A Node is decoded later, with its place for messages about it.
 
 #include "numerics/vec3.h"
 #include "physics/attractor.h"

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Paths below `folder` of the root; folders named in `skip` are not entered.
+/// Paths below `folder` of the root; folders with a path in `skip` are not entered.
 vector<string> walk(const string& folder, const vector<string>& skip) {
   vector<string> paths;
   for (auto i = fs::recursive_directory_iterator(fs::path(SOURCE_DIR) / folder);

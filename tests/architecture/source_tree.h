@@ -11,7 +11,7 @@ struct SourceFile {
   vector<string> lines() const;
 };
 
-/// Empty if it is not there.
+/// Without text if it is not there.
 SourceFile read_source(const string& path);
 
 /// What git tracks; without git, every file outside of build/ and output/. Sorted.

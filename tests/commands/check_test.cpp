@@ -93,6 +93,26 @@ TEST(Check, ChecksTheInstantsOfThePictures) {
   EXPECT_EQ(crossings("3"), Json({{{"time_s", 2.3}, {"body", "passing"}, {"enters", false}}}));
 }
 
+TEST(Check, WatchesTheInstantsOfAllPictures) {
+  const Workplace here;
+  here.write("passing.yaml", passing_ball +
+                                 "output: {frames: {fps: 10, size: [64, 64], from: 1, until: 1}, "
+                                 "video: {fps: 100, size: [64, 64]}}\n");
+  const Json seen = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},
+                                               {{"time_s", 2.22}, {"body", "passing"}, {"enters", false}}}));
+  EXPECT_EQ(seen.at("watched_every_s"), 0.01);
+}
+
+TEST(Check, WhatIsGoneDoesNotLeaveThePicture) {
+  const Workplace here;
+  here.write("removed.yaml", passing_ball +
+                                 "regions: {hole: {radius: 1, position: [0, 0, 0], action: remove}}\n"
+                                 "output: {frames: {fps: 100, size: [64, 64]}}\n");
+  const Json seen = Json::parse(here.carom({"check", "removed.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}}}));
+}
+
 TEST(Check, OfACameraThatMovesWatchesItsOwnPictures) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [64, 64]}}\n");

@@ -213,6 +213,25 @@ TEST_F(ComparisonOfSix, PivotIsTheFirstMeasureByTwoParameters) {
   }
 }
 
+TEST_F(ComparisonOfSix, PivotTakesEqualNumbersForOne) {
+  vector<ComparedRun> some = runs;
+  for (ComparedRun& run : some)
+    if (run.values[1] == "10") run.values[1] = run.id == "r1" ? "10.0" : "1e1";
+  place->compare(plan, some, "equal");
+  EXPECT_EQ(place->workbook("equal")["sheets"]["Pivot"]["values"], sheet("Pivot")["values"]);
+}
+
+TEST_F(ComparisonOfSix, PivotHasNoFormulasThatTakeTwoTextsForOne) {
+  vector<ComparedRun> some = runs;
+  for (const auto& [first, second] : {pair("a", "A"), pair("true", "b"), pair("a*", "b")}) {
+    for (size_t k = 0; k < some.size(); ++k) some[k].values[1] = runs[k].values[1] == "10" ? first : second;
+    place->compare(plan, some, "texts");
+    const Json pivot = place->workbook("texts")["sheets"]["Pivot"];
+    EXPECT_TRUE(pivot["rows"][5][1].is_number()) << first;
+    EXPECT_EQ(pivot["values"][5][2], sheet("Pivot")["values"][5][2]);
+  }
+}
+
 TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
   ComparisonPlan twice = plan;
   twice.measures = {"collisions"};

@@ -57,7 +57,7 @@ Camera camera_for(const Scene& scene, double duration, const Position& position)
 /// A marble bounces down a stair for 3 s.
 Vec3 marble(Entity, double t) {
   const double hop = t - 0.5 * floor(t / 0.5);
-  return Vec3(1.5 * t, 3 - floor(t / 0.5) * 0.4 + 2 * hop * (1 - 2 * hop), 0.1 * t);
+  return Vec3(1.5 * t, 3 - floor(t / 0.5) * 0.4 + hop * (2.8 - 7.2 * hop), 0.1 * t);
 }
 
 Scene one_ball(double radius = 0.05) {
@@ -110,7 +110,7 @@ TEST(CameraFit, AWallThatIsMetIsInViewAndOneFarBehindIsNot) {
   Scene scene = one_ball();
   test::add_wall(scene, Vec3(4, 1, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), 2, 2, test::green);
   test::add_wall(scene, Vec3(40, 1, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), 2, 2, test::blue);
-  // To the wall and back. Between two instants it is 0.1 m from it at least.
+  // To the wall and back. It touches the wall at the instant 1 s.
   const auto there_and_back = [](Entity, double t) { return Vec3(t < 1 ? 3.95 * t : 3.95 * (2 - t), 1, 0); };
   Filled filled(camera_for(scene, 2, there_and_back));
   for (const double y : {0.0, 2.0})

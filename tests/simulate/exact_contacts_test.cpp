@@ -57,7 +57,7 @@ TEST(CollapseDetector, NeverEndsElasticImpacts) {
 TEST(FlatContacts, CarryABodyThatTouchesFromTheStart) {
   ExactParts parts(ball_on_floor());
   parts.flat.find_initial(0);
-  EXPECT_TRUE(parts.flat.carry(0, 1));
+  EXPECT_TRUE(parts.flat.carries(0, 1));
   EXPECT_TRUE(parts.bodies.flights[0].a.isZero(0));
   EXPECT_EQ(parts.bodies.log.tally().resting, 1u);
 }
@@ -66,9 +66,9 @@ TEST(FlatContacts, LetABodySlideAndLiftOff) {
   ExactParts parts(ball_on_floor());
   parts.flat.find_initial(0);
   EXPECT_EQ(parts.flat.keep_at(0, Vec3(3, 0, 0)), Vec3(3, 0, 0));
-  EXPECT_TRUE(parts.flat.carry(0, 1));
+  EXPECT_TRUE(parts.flat.carries(0, 1));
   EXPECT_EQ(parts.flat.keep_at(0, Vec3(0, 1, 0)), Vec3(0, 1, 0));
-  EXPECT_FALSE(parts.flat.carry(0, 1));
+  EXPECT_FALSE(parts.flat.carries(0, 1));
   EXPECT_EQ(parts.bodies.log.tally().resting, 0u);
 }
 

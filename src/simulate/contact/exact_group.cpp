@@ -126,7 +126,7 @@ void ExactGroup::join_initial(Entity first) {
       const bool body = world.is_body(e);
       const bool i_in = in_lasting_contact(bodies_.mode(i));
       const bool e_in = body && in_lasting_contact(bodies_.mode(e));
-      if (flat_.carry(i, e) || (i_in && (!body || e_in))) continue;
+      if (flat_.carries(i, e) || (i_in && (!body || e_in))) continue;
 
       const Vec3 xe = bodies_.position_of(e);
       const Vec3 ve = bodies_.velocity_of(e);

@@ -21,16 +21,17 @@ constexpr size_t most = FlatContactList::most;
 
 }  // namespace
 
-/// Stores the surfaces of all contacts except those with `without`. Returns their number. Their motion is `share` times
-/// their velocity: 1 where velocities are meant. Accelerations of a body that they carry have to outweigh drag.
-size_t FlatContacts::surfaces_of(const FlatContactList& contacts, Entity without, double share,
+/// Stores the surfaces of all contacts except those with `without`. Returns their number. Their motion is `factor`
+/// times their velocity: 1 where velocities are meant, the fade (1/s) of drag where accelerations of a carried body
+/// are.
+size_t FlatContacts::surfaces_of(const FlatContactList& contacts, Entity without, double factor,
                                  Surfaces& surfaces) const {
   size_t n = 0;
   for (size_t k = 0; k < contacts.count; ++k) {
     const auto& [surface, feature, normal, settling, rest_time, residual_speed] = contacts.at[k];
     if (surface == without) continue;
     const double along = bodies_.moving.any() ? normal.dot(bodies_.fixed_velocity(surface)) : 0;
-    surfaces[n++] = {normal, share * along};
+    surfaces[n++] = {normal, factor * along};
   }
   return n;
 }
@@ -63,9 +64,10 @@ vector<Entity> FlatContacts::opposite_surfaces(const FlatContactList& contacts) 
   return surfaces;
 }
 
-/// Notes the quality of a solution for body i's velocity, and books the work of moving surfaces, which is lost (J).
+/// Notes the quality of a solution for body i's velocity, and adds the work of moving surfaces to the log and to `lost`
+/// (J): it becomes no motion.
 /// Throws SimulationError where they leave the body no room.
-FlatSolution FlatContacts::book(Entity i, const FlatSolution& solution, double& lost) {
+FlatSolution FlatContacts::note_solution(Entity i, const FlatSolution& solution, double& lost) {
   if (bodies_.moving.any()) {
     if (solution.certificate.verdict == Certificate::Verdict::infeasible) {
       bodies_.fail_squeezed(i, opposite_surfaces(contacts_[i]));
@@ -78,13 +80,13 @@ FlatSolution FlatContacts::book(Entity i, const FlatSolution& solution, double& 
   return solution;
 }
 
-bool FlatContacts::carry(Entity i, Entity surface) const {
+bool FlatContacts::carries(Entity i, Entity surface) const {
   for (size_t k = 0; k < contacts_[i].count; ++k)
     if (contacts_[i].at[k].surface == surface) return true;
   return false;
 }
 
-bool FlatContacts::hide(Entity i, Entity fixed) const {
+bool FlatContacts::hides(Entity i, Entity fixed) const {
   const FlatContactList& contacts = contacts_[i];
   for (size_t k = 0; k < contacts.count; ++k)
     if (bodies_.hidden(i, bodies_.position(i), fixed, contacts.at[k].normal,
@@ -124,7 +126,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
   double longest = -1;
   for (const Entity e : bodies_.neighbours_of(i)) {
-    if (world.is_body(e) || e == surface || carry(i, e)) continue;
+    if (world.is_body(e) || e == surface || carries(i, e)) continue;
     const Vec3 point = bodies_.fixed_position(e);
     const Vec3 u = bodies_.fixed_velocity(e);
     const Touch level = touch(world, i, there, e, point);
@@ -244,7 +246,7 @@ void FlatContacts::record_bounce(Entity i, const FlatContact& contact, double ap
   bodies_.log.record(met);
 }
 
-void FlatContacts::keep(FlatContactList& contacts, const array<bool, most>& which) {
+void FlatContacts::retain(FlatContactList& contacts, const array<bool, most>& which) {
   size_t kept = 0;
   for (size_t k = 0; k < contacts.count; ++k)
     if (which[k]) contacts.at[kept++] = contacts.at[k];
@@ -292,21 +294,21 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   size_t n = 0;
   for (size_t k = 0; k < contacts.count; ++k)
     if (kept[k]) press[n++] = press[k];
-  keep(contacts, kept);
+  retain(contacts, kept);
 
   Surfaces surfaces;
   n = surfaces_of(contacts, no_entity, 1, surfaces);
   double lost = 0;  // J
-  FlatSolution solution = book(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
+  FlatSolution solution = note_solution(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
 
   // A push into one surface may lift the body off another.
   for (size_t k = 0; k < contacts.count; ++k) {
     const double u = surfaces[k].normal.dot(solution.u) - surfaces[k].u;
     kept[k] = u <= noise + velocity_rounding * std::abs(surfaces[k].u) || bodies_.too_low(x, u, press[k]);
   }
-  keep(contacts, kept);
+  retain(contacts, kept);
   n = surfaces_of(contacts, no_entity, 1, surfaces);
-  solution = book(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
+  solution = note_solution(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
   const Vec3& allowed = solution.u;
   note_mode(i);
 
@@ -332,7 +334,7 @@ Vec3 FlatContacts::keep_pressing_surfaces(Entity i) {
   bodies_.log.note(solution.certificate);
   array<bool, most> presses;
   for (size_t k = 0; k < most; ++k) presses[k] = solution.active >> k & 1u;
-  keep(contacts, presses);
+  retain(contacts, presses);
   note_mode(i);
   return solution.u;
 }
@@ -355,7 +357,7 @@ vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const 
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity(i);
   for (const Entity e : bodies_.neighbours_of(i)) {
-    if (world.is_body(e) || carry(i, e)) continue;
+    if (world.is_body(e) || carries(i, e)) continue;
     const Vec3 point = bodies_.fixed_position(e);
     const Vec3 u = bodies_.fixed_velocity(e);
     const Touch there = touch(world, i, x, e, point);

@@ -21,7 +21,7 @@ struct FlatContact {
   Entity surface;
   uint8_t feature;             // of the pair (touch.h; of a ball and a wall: contact_time.h)
   Vec3 normal = Vec3::Zero();  // unit, from the surface to the body
-  // Bounces have not ended. They end at the time below.
+  // Bounces have not ended: the contact settles. They end at the time below.
   bool settling;
   Instant rest_time;      // s
   double residual_speed;  // m/s, left by the last bounce
@@ -48,7 +48,7 @@ class FlatContacts {
       : bodies_(bodies), modes_(modes), collapses_(collapses), contacts_(bodies.body.size()) {}
 
   [[gnu::always_inline]] const FlatContactList& of(Entity i) const { return contacts_[i]; }
-  bool carry(Entity i, Entity surface) const;
+  bool carries(Entity i, Entity surface) const;
   /// Whether a surface that carries body i changes its velocity at the present instant.
   bool switches(Entity i) const;
   /// The path of a fixed thing from `start` (s) on, as long as its present velocity lasts.
@@ -56,7 +56,7 @@ class FlatContacts {
   /// The power of moving surfaces that carry body i (W).
   double power(Entity i) const;
   /// Whether body i cannot strike this fixed thing, because it lies behind a surface that carries the body.
-  bool hide(Entity i, Entity fixed) const;
+  bool hides(Entity i, Entity fixed) const;
 
   /// Adds a surface to those that carry body i.
   void add(Entity i, const FlatContact& contact);
@@ -100,8 +100,8 @@ class FlatContacts {
  private:
   void note_mode(Entity i);
   using Surfaces = array<FlatSurface, FlatContactList::most>;
-  size_t surfaces_of(const FlatContactList& contacts, Entity without, double share, Surfaces& surfaces) const;
-  FlatSolution book(Entity i, const FlatSolution& solution, double& lost);
+  size_t surfaces_of(const FlatContactList& contacts, Entity without, double factor, Surfaces& surfaces) const;
+  FlatSolution note_solution(Entity i, const FlatSolution& solution, double& lost);
   static vector<Entity> opposite_surfaces(const FlatContactList& contacts);
   /// The force of a surface on a body.
   struct SurfaceForce {
@@ -116,7 +116,7 @@ class FlatContacts {
   Vec3 keep_pressing_surfaces(Entity i);
   Vec3 place_of(Entity i, const FlatContact& contact) const;
   void record_bounce(Entity i, const FlatContact& contact, double approach, double e, double lost);
-  static void keep(FlatContactList& contacts, const array<bool, FlatContactList::most>& which);
+  static void retain(FlatContactList& contacts, const array<bool, FlatContactList::most>& which);
 
   ExactBodies& bodies_;
   ModeChanges& modes_;

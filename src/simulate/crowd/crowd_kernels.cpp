@@ -3,6 +3,7 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/processor.h"
+#include "std.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -23,7 +24,6 @@ CAROM_BEGIN_AVX2
 namespace fours {
 #define LANES 4
 #include "simulate/crowd/crowd_kernels.inc"
-#include "std.h"
 #undef LANES
 }  // namespace fours
 CAROM_END_TARGET

@@ -92,7 +92,7 @@ CrowdList::Outlook CrowdList::outlook_on(const Crowd& crowd, Entity member, Enti
   return meets(crowd.step.length, left) ? Outlook::may_strike : Outlook::may_come;
 }
 
-/// Adds the pairs of member k with later bodies and with things.
+/// Adds the pairs of member k with later bodies, and with sleeping and fixed things.
 void CrowdList::list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& pairs) const {
   const World& world = bodies_.world;
   const Entity i = crowd.members[k];

@@ -27,8 +27,8 @@ class CrowdList {
 
   /// Begins a list that holds for some steps. need: m, what a body may go in a step.
   void begin(Crowd& crowd, double need) const;
-  /// Makes the regions of these members so wide that they hold while the list does. Returns the bodies of other kinds
-  /// that are near.
+  /// Makes the regions of these members so wide that they hold while the list does. Returns the outsiders that
+  /// are near.
   vector<Entity> hold_regions(const Crowd& crowd, span<const Entity> members);
   Outlook outlook(const Crowd& crowd, Entity e) const;
   /// Lists the pairs that may press while the list holds. Forces are those of the same pairs in the crowds `before`,

@@ -204,7 +204,7 @@ bool InstantImpacts::may_strike(const Moment& now, uint32_t c) const {
     return bodies_.world.volume.empty() || meets_by_volume(row, bodies_.velocity(e) - bodies_.velocity(i));
   }
 
-  if (lies_on_flat(bodies_.mode(i)) && (parts_.flat.carry(i, row.thing) || parts_.flat.hide(i, row.thing)))
+  if (lies_on_flat(bodies_.mode(i)) && (parts_.flat.carries(i, row.thing) || parts_.flat.hides(i, row.thing)))
     return false;
   if (bodies_.mode(i) == Mode::held && parts_.group.hides(i, row.thing)) return false;
   return bodies_.world.volume.empty() || meets_by_volume(row, bodies_.fixed_velocity(row.thing) - bodies_.velocity(i));
@@ -357,7 +357,7 @@ void InstantImpacts::begin_flights(Moment& now, span<const ImpactSet::Impact> im
     // A flat surface carries the body from here on.
     if (!row.rests) continue;
     if (!row.contact.settling) parts_.flat.remove_level(row.a, row.contact.normal);
-    if (!parts_.flat.carry(row.a, row.thing)) parts_.flat.add(row.a, row.contact);
+    if (!parts_.flat.carries(row.a, row.thing)) parts_.flat.add(row.a, row.contact);
     down[now.members.number(row.a)] += row.there.gap * row.there.normal;
   }
 

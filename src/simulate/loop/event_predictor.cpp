@@ -154,7 +154,7 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature, latest_tie(best));
       offer(i, best, ExactEvent{time, e, bodies_.body[e].version, feature, ExactEvent::Kind::body_body});
-    } else if (!(carried && (flat_.carry(i, e) || flat_.hide(i, e))) && !(constrained && group_.hides(i, e))) {
+    } else if (!(carried && (flat_.carries(i, e) || flat_.hides(i, e))) && !(constrained && group_.hides(i, e))) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
       offer(i, best, ExactEvent{time, e, 0, feature, ExactEvent::Kind::body_fixed});

@@ -4,6 +4,7 @@
 #include "simulate/loop/straight_times.h"
 
 #include "numerics/processor.h"
+#include "std.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -32,7 +33,6 @@ CAROM_BEGIN_AVX512
 namespace eights {
 #define LANES 8
 #include "simulate/loop/straight_times_kernel.inc"
-#include "std.h"
 #undef LANES
 }  // namespace eights
 CAROM_END_TARGET

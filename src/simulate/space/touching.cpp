@@ -4,6 +4,7 @@
 #include "simulate/space/touching.h"
 
 #include "numerics/processor.h"
+#include "std.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -39,7 +40,6 @@ CAROM_BEGIN_AVX512
 namespace sixteens {
 #define LANES 16
 #include "simulate/space/touching_kernel.inc"
-#include "std.h"
 #undef LANES
 }  // namespace sixteens
 CAROM_END_TARGET
