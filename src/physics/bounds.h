@@ -25,7 +25,7 @@ struct Bounds {
   double speed = largest_speed;  // m/s
 
   /// Whether a body's position (m) and velocity (m/s) are within the bounds. A number that is not finite never is.
-  bool hold(const Vec3& x, const Vec3& v) const {
+  bool contain(const Vec3& x, const Vec3& v) const {
     return (x.array().abs() <= place).all() && v.squaredNorm() <= speed * speed;
   }
 };

@@ -49,9 +49,9 @@ class Runs {
       : scene_(scene), stop_check_(stop_check), instants_(instants_of(scene, end)) {}
 
   TrackedRun track(const Simulate& way, const StepChoice& steps, double disturbance = 0) const {
-    if (disturbance == 0) return carry(scene_.world, scene_.initial, way, steps);
+    if (disturbance == 0) return tracked_run(scene_.world, scene_.initial, way, steps);
     const Perturbed other = perturbed(scene_.world, scene_.initial, disturbance);
-    return carry(other.world, other.initial, way, steps);
+    return tracked_run(other.world, other.initial, way, steps);
   }
   const vector<double>& instants() const { return instants_; }
 
@@ -68,7 +68,7 @@ class Runs {
   }
 
  private:
-  TrackedRun carry(const World& world, const State& initial, const Simulate& way, const StepChoice& steps) const {
+  TrackedRun tracked_run(const World& world, const State& initial, const Simulate& way, const StepChoice& steps) const {
     const auto simulator = make_simulator(world, initial, way, {}, steps);
     TrackedRun run;
     for (const double time : instants_) {

@@ -239,7 +239,7 @@ void BookSimulator::move() {
     const Vec3 before = v_[i];
     v_[i] += force_[i] / world_.mass[i] * dt;
     x_[i] += v_[i] * dt;
-    if (!bounds_.hold(x_[i], v_[i]))
+    if (!bounds_.contain(x_[i], v_[i]))
       fail_out_of_bounds(bounds_, i, frame_time(frames_), x_[i], v_[i],
                          {.speed = "use a smaller simulate.step, or engine: exact"});
     log_.note_speed(i, v_[i].norm());

@@ -18,7 +18,7 @@ EventLog::EventLog(uint64_t max_collisions, bool record_collisions, size_t force
 
 void EventLog::record(const Collision& collision) {
   tally_.count(collision.kind, collision.time);
-  if (collision.kind == CollisionKind::rest) hold(-collision.energy_lost);
+  if (collision.kind == CollisionKind::rest) add_absorbed(-collision.energy_lost);
   if (record_collisions_) collisions_.push_back(collision);
   if (max_collisions_ > 0 && tally_.collisions() > max_collisions_)
     throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
@@ -47,7 +47,7 @@ void EventLog::take_up(double approach, double energy) {
   TakenUp& all = tally_.taken_up;
   ++all.impacts;
   all.fastest = max(all.fastest, approach);
-  hold(energy);
+  add_absorbed(energy);
 }
 
 void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before, span<const Vec3> after,
@@ -76,7 +76,7 @@ void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before,
     }
   }
 
-  if (work != 0) carry(work);
+  if (work != 0) add_carried_work(work);
   if (!any && !any_recorded) return;
 
   // The energy lost: the work of moving things, and what the motion loses.
@@ -85,7 +85,7 @@ void EventLog::take_up(span<const double> inverse_mass, span<const Vec3> before,
     lost += 0.5 / inverse_mass[k] * (before[k] - after[k]).dot(before[k] + after[k]);
   lose(lost);
   deviate(-lost);
-  hold(lost - of_recorded);
+  add_absorbed(lost - of_recorded);
 }
 
 }  // namespace carom

@@ -47,7 +47,7 @@ class EventLog {
     tally_.work = work_.value();
   }
   /// Books work (J) of moving things in lasting contact. It is part of what is booked as deviation.
-  void carry(double work) {
+  void add_carried_work(double work) {
     add_work(work);
     deviate(work);
   }
@@ -85,7 +85,7 @@ class EventLog {
   /// Books energy (J) lost beside the impacts that are recorded or counted. The record of a rest takes its part back. A
   /// crowd gives back what contacts have lent: less than 0.
   void absorb(double energy) {
-    hold(energy);
+    add_absorbed(energy);
     lose(energy);
   }
   /// Books energy (J) that errors of a crowd's step have made.
@@ -120,7 +120,7 @@ class EventLog {
 
  private:
   /// Adds to the energy of impacts without a record (J).
-  void hold(double energy) {
+  void add_absorbed(double energy) {
     absorbed_.add(energy);
     tally_.taken_up.energy = absorbed_.value();
   }

@@ -121,7 +121,7 @@ double DualActiveSet::blocking(size_t& first) const {
 }
 
 /// Appends row c, which is violated by `shortfall`: its force grows until it is satisfied. False: that is impossible.
-bool DualActiveSet::take_in(const ContactIsland& island, uint32_t c, double shortfall) {
+bool DualActiveSet::activate(const ContactIsland& island, uint32_t c, double shortfall) {
   double force = 0;
   transform(island, c);
 
@@ -202,7 +202,7 @@ void DualActiveSet::take_in_violated(const ContactIsland& island) {
 
     if (worst == none) return;
     // A row that cannot be satisfied is set aside.
-    if (!take_in(island, worst, -least)) {
+    if (!activate(island, worst, -least)) {
       aside_[worst] = 1;
       settle(island);
       continue;
@@ -354,7 +354,7 @@ void DualActiveSet::run(const ContactIsland& island, ContactSolution& solution) 
     const uint32_t worst = worst_after_refining(island, solution, shortfall);
     if (worst == none) return;
     // A row that cannot be satisfied is set aside.
-    if (!take_in(island, worst, shortfall)) {
+    if (!activate(island, worst, shortfall)) {
       infeasible_ = true;
       aside_[worst] = 2;
       settle(island);

@@ -45,7 +45,7 @@ class DualActiveSet {
   bool drop_one_that_pulls(double tolerance);
   void run(const ContactIsland& island, ContactSolution& solution);
   void take_in_violated(const ContactIsland& island);
-  bool take_in(const ContactIsland& island, uint32_t c, double shortfall);
+  bool activate(const ContactIsland& island, uint32_t c, double shortfall);
   double blocking(size_t& first) const;
   void refine(const ContactIsland& island, ContactSolution& solution);
   uint32_t worst_after_refining(const ContactIsland& island, const ContactSolution& solution, double& shortfall) const;

@@ -48,10 +48,10 @@ TEST(Bounds, AreTenToTheTwelfthOfTheSmallestSizeOfAnything) {
 
 TEST(Bounds, HoldNoNumberThatIsNotFinite) {
   const Bounds bounds;
-  EXPECT_TRUE(bounds.hold({1e300, 0, 0}, {0, 1e30, 0}));
-  EXPECT_FALSE(bounds.hold({std::nan(""), 0, 0}, {0, 0, 0}));
-  EXPECT_FALSE(bounds.hold({0, 0, 0}, {0, 0, std::nan("")}));
-  EXPECT_FALSE(bounds.hold({0, 0, 0}, {0, 1.1e30, 0}));
+  EXPECT_TRUE(bounds.contain({1e300, 0, 0}, {0, 1e30, 0}));
+  EXPECT_FALSE(bounds.contain({std::nan(""), 0, 0}, {0, 0, 0}));
+  EXPECT_FALSE(bounds.contain({0, 0, 0}, {0, 0, std::nan("")}));
+  EXPECT_FALSE(bounds.contain({0, 0, 0}, {0, 1.1e30, 0}));
 }
 
 // 1 m/s^2 and a radius of 1 mm: 1e9 m are reached after sqrt(2e9) = 44721.36 s.

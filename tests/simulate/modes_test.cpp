@@ -35,7 +35,7 @@ void bring(ExactParts& parts, Mode mode) {
 
     case Mode::held:
       parts.group.join(0);
-      return parts.modes.hold(0);
+      return parts.modes.constrain(0);
 
     case Mode::stepped:
       parts.group.join(0);
@@ -88,7 +88,7 @@ TEST(Modes, CountWhatThingsPressOnAsAtRest) {
   parts.group.join(0);  // a step has yet to find what presses on it
   EXPECT_EQ(resting(parts), 0u);
 
-  parts.modes.hold(0);
+  parts.modes.constrain(0);
   parts.modes.press(0, true);
   EXPECT_EQ(resting(parts), 1u);
 
@@ -103,7 +103,7 @@ TEST(Modes, CountWhatThingsPressOnAsAtRest) {
 TEST(Modes, OfAnIslandAreThatOfItsTimeSteps) {
   ExactParts parts(two_on_a_floor());
   for (const Entity i : {0, 1}) parts.group.join(i);
-  parts.modes.hold(0);
+  parts.modes.constrain(0);
   parts.modes.step(1);
   parts.group.unite(0, 1);
   EXPECT_EQ(parts.bodies.mode(0), Mode::stepped);

@@ -61,7 +61,7 @@ TEST(NearThoseThatStay, HasAllWithinReachAndFewBeyond) {
 
     Neighbours neighbours(world);
     neighbours.start(x);
-    for (Entity i = 0; i < bodies; ++i) neighbours.hold(i, x[i], reach);
+    for (Entity i = 0; i < bodies; ++i) neighbours.stay(i, x[i], reach);
 
     for (Entity i = 0; i < bodies; ++i) {
       const span<const Entity> list = neighbours.bodies(i);

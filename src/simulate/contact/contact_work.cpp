@@ -10,7 +10,7 @@ namespace carom {
 void ContactWork::change(Entity i, const Instant& now, double power) {
   const Power& last = power_[i];
   if (last.power == 0 && power == 0) return;
-  if (last.power != 0) log_.carry(last.power * (now - last.since));
+  if (last.power != 0) log_.add_carried_work(last.power * (now - last.since));
   power_.write(i) = {now, power};
 }
 
@@ -24,7 +24,7 @@ void ContactWork::end_paths(const vector<Entity>& members, const Instant& now) {
   for (const Entity i : members) {
     if (!path_[i]) continue;
     Path& path = *path_[i];
-    if (path.path) log_.carry(path.path->work(now - path.start));
+    if (path.path) log_.add_carried_work(path.path->work(now - path.start));
     path.path = nullptr;
     path_.write(i) = nullptr;
   }

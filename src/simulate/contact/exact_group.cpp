@@ -61,7 +61,7 @@ void ExactGroup::unite(Entity a, Entity b) {
     // An island in another mode takes that of the united one.
     for (const Entity i : {a, b}) {
       if (bodies_.mode(i) == united) continue;
-      for (const Entity k : islands.of(i).members) united == Mode::held ? modes_.hold(k) : modes_.step(k);
+      for (const Entity k : islands.of(i).members) united == Mode::held ? modes_.constrain(k) : modes_.step(k);
     }
     islands.merge(a, b, bodies_.now);
   }

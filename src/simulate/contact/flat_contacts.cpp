@@ -166,8 +166,8 @@ void FlatContacts::note_mode(Entity i) {
   const FlatContactList& contacts = contacts_[i];
   if (!is_free(bodies_.mode(i))) return;
   if (contacts.count == 0) return modes_.fly(i);
-  modes_.carry(i, std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count,
-                              [](const FlatContact& contact) { return contact.settling; }));
+  modes_.lie(i, std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count,
+                            [](const FlatContact& contact) { return contact.settling; }));
 }
 
 void FlatContacts::remove(Entity i, Entity surface) {

@@ -18,7 +18,7 @@ uint32_t Islands::take_place() {
   return place;
 }
 
-void Islands::release(uint32_t place) {
+void Islands::vacate(uint32_t place) {
   islands_[place] = {};
   vacant_.push_back(place);
   --count_;
@@ -55,7 +55,7 @@ void Islands::merge(Entity a, Entity b, const Instant& end) {
   one.crowds.insert(one.crowds.end(), other.crowds.begin(), other.crowds.end());
   one.watched.insert(one.watched.end(), other.watched.begin(), other.watched.end());
 
-  release(from);
+  vacate(from);
 }
 
 void Islands::retain(Entity member, vector<Entity> stay) {
@@ -63,7 +63,7 @@ void Islands::retain(Entity member, vector<Entity> stay) {
   for (const Entity i : islands_[place].members) island_.write(i) = none;
   for (const Entity i : stay) island_.write(i) = place;
   islands_[place].members = std::move(stay);
-  if (islands_[place].members.empty()) release(place);
+  if (islands_[place].members.empty()) vacate(place);
 }
 
 vector<Entity> Islands::split(Entity i, span<const uint32_t> labels) {

@@ -74,7 +74,7 @@ class Islands {
   static constexpr uint32_t none = ~uint32_t{0};
 
   uint32_t take_place();
-  void release(uint32_t place);
+  void vacate(uint32_t place);
 
   std::deque<Island> islands_;
   vector<uint32_t> vacant_;

@@ -17,11 +17,11 @@ class ModeChanges {
 
   /// A free body flies by itself, or lies on flat surfaces. `settling`: its bounces on one of them have not ended.
   void fly(Entity i) { change(i, Mode::flying, false); }
-  void carry(Entity i, bool settling) { change(i, settling ? Mode::settling : Mode::carried, false); }
+  void lie(Entity i, bool settling) { change(i, settling ? Mode::settling : Mode::carried, false); }
   /// A body joins an island, or wakes.
   void join(Entity i) { change(i, Mode::fresh, false); }
   /// A member's island takes a step, or unites with one that does: by constrained motion or as a crowd.
-  void hold(Entity i) { change(i, Mode::held, presses_[i] != 0); }
+  void constrain(Entity i) { change(i, Mode::held, presses_[i] != 0); }
   void step(Entity i) { change(i, Mode::stepped, presses_[i] != 0); }
   /// A thing presses on a member, or none does. The tally counts such bodies as at rest.
   void press(Entity i, bool pressed);

@@ -33,7 +33,7 @@ vector<Entity> CrowdList::hold_regions(const Crowd& crowd, span<const Entity> me
   for (const Entity i : members) {
     const Vec3 x = bodies_.position(i);
     bodies_.hold_to_bounds(i, bodies_.now.hi, x, bodies_.velocity_without_kick(i, bodies_.now));
-    bodies_.neighbours.hold(i, x, crowd.list.room);
+    bodies_.neighbours.stay(i, x, crowd.list.room);
   }
 
   // Each is looked at once.

@@ -191,7 +191,7 @@ Crowd& CrowdMotion::gather(Island& island) {
 
   // Others come from their flights.
   for (size_t k = 0; k < n; ++k) {
-    if (known[k] < 2) take_in(crowd, k, known[k] == 0);
+    if (known[k] < 2) add_member(crowd, k, known[k] == 0);
     crowd.smallest = min(crowd.smallest, bodies_.world.radius[crowd.members[k]]);
   }
   renew_forces(crowd);
@@ -235,7 +235,7 @@ void CrowdMotion::take_over(Crowd& crowd, const Crowd& earlier, vector<uint8_t>&
 }
 
 /// Takes member k from its flight at present. `comes`: it was in no crowd before.
-void CrowdMotion::take_in(Crowd& crowd, size_t k, bool comes) {
+void CrowdMotion::add_member(Crowd& crowd, size_t k, bool comes) {
   const Entity i = crowd.members[k];
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity_without_kick(i, bodies_.now);

@@ -45,7 +45,7 @@ class CrowdMotion {
 
   // What takes part.
   Crowd& gather(Island& island);
-  void take_in(Crowd& crowd, size_t k, bool comes);
+  void add_member(Crowd& crowd, size_t k, bool comes);
   void take_over(Crowd& crowd, const Crowd& earlier, vector<uint8_t>& known) const;
   void renew_forces(Crowd& crowd) const;
   double longest_step(const Crowd& crowd) const;

@@ -134,7 +134,7 @@ bool CrowdSleep::hold_by_sweeps(const Crowd& crowd, Holding& holding, const Cont
 
   const double left = 0.1 * tol::balance * crowd.load;  // m/s^2, of a body by a sweep
   const double goal = left * left * double(holding.members.size());
-  if (solver_.hold(rows, v, {1, goal, crowd.load, tol::sweeps_to_rest}).change > goal) return false;
+  if (solver_.balance(rows, v, {1, goal, crowd.load, tol::sweeps_to_rest}).change > goal) return false;
 
   // Bodies would move, or rounding is left.
   for (size_t c = 0; c < holding.pairs.size(); ++c)

@@ -63,7 +63,7 @@ SweepResult CrowdSolver::sweep(CrowdRows& rows, vector<Four>& v, double length, 
           any_of(found, [](const SweepResult& of) { return of.is_short; })};
 }
 
-SweepResult CrowdSolver::hold(CrowdRows& rows, vector<Four>& v, const Goal& goal) {
+SweepResult CrowdSolver::balance(CrowdRows& rows, vector<Four>& v, const Goal& goal) {
   before_.resize(v.size());
   direction_.resize(v.size());
   marks_.assign(rows.groups(), 0);

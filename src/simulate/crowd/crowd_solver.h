@@ -25,7 +25,7 @@ class CrowdSolver {
 
   /// Changes the velocities `v` of all bodies, which contain the effect of the rows' present impulses, and the
   /// impulses. Returns the last sweep's result.
-  SweepResult hold(CrowdRows& rows, vector<Four>& v, const Goal& goal);
+  SweepResult balance(CrowdRows& rows, vector<Four>& v, const Goal& goal);
   /// Sweeps so many times over the marked groups, without directions.
   void sweep(CrowdRows& rows, vector<Four>& v, double length, span<const uint8_t> marks, int sweeps);
   /// Scales all impulses by one factor, so that they do no work beyond their targets. free: velocities without them.

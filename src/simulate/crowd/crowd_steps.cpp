@@ -19,7 +19,7 @@ bool CrowdSteps::solve(Crowd& crowd) {
   before_ = crowd.v;
   for (int tries = 0;; ++tries) {
     kick(crowd);
-    crowd.step.solved = hold(crowd);
+    crowd.step.solved = balance(crowd);
 
     // The contact solver's forces depend on the order of bodies: mirror images with one slab have the same.
     double safe = safe_length(crowd);
@@ -308,15 +308,15 @@ CrowdSolver::Goal CrowdSteps::goal(const Crowd& crowd) const {
 }
 
 /// Finds the impulses that keep all pairs apart. Returns whether they are as accurate as the goal.
-bool CrowdSteps::hold(Crowd& crowd) {
+bool CrowdSteps::balance(Crowd& crowd) {
   const CrowdSolver::Goal aim = goal(crowd);
-  SweepResult found = solver_.hold(crowd.rows, crowd.v, aim);
+  SweepResult found = solver_.balance(crowd.rows, crowd.v, aim);
   if (found.is_short && give_up_returns(crowd)) {
     crowd.step.waited = clamp(2 * crowd.step.waited, 1, tol::longest_wait);
     crowd.step.waits = crowd.step.waited + 1;
     crowd.v = free_;
     start_warm(crowd);
-    found = solver_.hold(crowd.rows, crowd.v, aim);
+    found = solver_.balance(crowd.rows, crowd.v, aim);
   }
   // Forces as a whole then do no work but that of their targets, whatever the sweeps have left. Without this the errors
   // of many steps add up to energy.

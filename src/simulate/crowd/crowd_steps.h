@@ -54,7 +54,7 @@ class CrowdSteps {
   void kick(Crowd& crowd);
   double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
-  bool hold(Crowd& crowd);
+  bool balance(Crowd& crowd);
   static void shorten(Crowd& crowd, double length);
   double longest(const Crowd& crowd) const;
   void start_warm(Crowd& crowd);

@@ -24,15 +24,17 @@ bool ImpactRules::too_slow_to_wake(const PairImpact& impact, Entity striker, Ent
   // At least three forces that are not in one plane.
   vector<Vec3> normals;
   const Vec3 x = bodies_.flights[struck].x;
-  const auto hold = [&](Entity e) { normals.push_back(touch(world, struck, x, e, bodies_.position_of(e)).normal); };
+  const auto add_normal = [&](Entity e) {
+    normals.push_back(touch(world, struck, x, e, bodies_.position_of(e)).normal);
+  };
 
   // The list of the lower body of a pair has the force.
   for (const PressingContact& p : group_.pressing[struck])
-    if (p.force > 0) hold(p.partner);
+    if (p.force > 0) add_normal(p.partner);
   for (const Entity e : bodies_.neighbours_of(struck))
     if (world.is_body(e) && bodies_.mode(e) == Mode::asleep)
       for (const PressingContact& p : group_.pressing[e])
-        if (p.partner == struck && p.force > 0) hold(e);
+        if (p.partner == struck && p.force > 0) add_normal(e);
 
   for (size_t i = 0; i < normals.size(); ++i)
     for (size_t j = 0; j < i; ++j)

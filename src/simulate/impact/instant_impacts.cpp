@@ -77,7 +77,7 @@ bool InstantImpacts::strike(const Due& due) {
 }
 
 /// The number of body i in the set, to which it is added.
-uint32_t InstantImpacts::take_in(Moment& now, Entity i) const {
+uint32_t InstantImpacts::member_number(Moment& now, Entity i) const {
   if (now.members.add(i)) {
     now.set.add_body(bodies_.world.mass[i], bodies_.velocity(i));
     now.gathered.push_back(0);
@@ -89,8 +89,8 @@ uint32_t InstantImpacts::take_in(Moment& now, Entity i) const {
 void InstantImpacts::add_row(Moment& now, Entity a, Entity thing, const Touch& there, ImpactSet::Kind kind) const {
   const Entity b = bodies_.world.second_body(thing);
   ImpactSet::Row row;
-  row.a = take_in(now, a);
-  row.b = b == no_entity ? ImpactSet::fixed : take_in(now, b);
+  row.a = member_number(now, a);
+  row.b = b == no_entity ? ImpactSet::fixed : member_number(now, b);
   row.normal = there.normal;
   row.place = bodies_.position(a) + (b == no_entity ? bodies_.position(a) : bodies_.position(b));
   row.kind = kind;
@@ -139,7 +139,7 @@ double InstantImpacts::near_gap(Entity i, Entity thing) const {
 /// Adds all that touches body i, and the strings and rods that hold it.
 void InstantImpacts::gather(Moment& now, Entity i) const {
   const World& world = bodies_.world;
-  const uint32_t number = take_in(now, i);
+  const uint32_t number = member_number(now, i);
   if (now.gathered[number]) return;
   now.gathered[number] = 1;
   if (bodies_.ties.any()) gather_strings(now, i);
@@ -333,7 +333,7 @@ void InstantImpacts::apply(Moment& now, span<const ImpactSet::Impact> impacts, b
   }
 
   begin_flights(now, impacts);
-  hold(now, impacts);
+  unite_ended(now, impacts);
 }
 
 /// Begins the flights of the bodies that a round has struck.
@@ -375,7 +375,7 @@ void InstantImpacts::begin_flights(Moment& now, span<const ImpactSet::Impact> im
 }
 
 /// Unites the bodies whose impacts have ended in contact.
-void InstantImpacts::hold(Moment& now, span<const ImpactSet::Impact> impacts) {
+void InstantImpacts::unite_ended(Moment& now, span<const ImpactSet::Impact> impacts) {
   for (const ImpactSet::Impact& impact : impacts) {
     const Touching& row = now.touching[impact.row];
     if (!row.ends) continue;

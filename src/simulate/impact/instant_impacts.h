@@ -89,7 +89,7 @@ class InstantImpacts {
     double absorbed = 0;  // J, for want of room
   };
 
-  uint32_t take_in(Moment& now, Entity i) const;
+  uint32_t member_number(Moment& now, Entity i) const;
   void gather(Moment& now, Entity i) const;
   void gather_strings(Moment& now, Entity i) const;
   void add_row(Moment& now, Entity a, Entity thing, const Touch& there, ImpactSet::Kind kind) const;
@@ -110,7 +110,7 @@ class InstantImpacts {
   void decide_fixed(Touching& row);
   void apply(Moment& now, span<const ImpactSet::Impact> impacts, bool last);
   void begin_flights(Moment& now, span<const ImpactSet::Impact> impacts);
-  void hold(Moment& now, span<const ImpactSet::Impact> impacts);
+  void unite_ended(Moment& now, span<const ImpactSet::Impact> impacts);
   void hold_string(Moment& now);
   void note(Moment& now, const ImpactSet::Impact& impact, bool last) const;
   void share_gains(Moment& now);

@@ -152,7 +152,7 @@ void ConstrainedMotion::book(const IslandStep& step) {
   bodies_.log.take_up(step.inverse_mass, absorbed.before, absorbed.after, absorbed.pairs, absorbed.impacts);
 
   for (const Entity i : all.struck) collapses_.count_in_turn(i, 1);
-  if (all.work != 0) bodies_.log.carry(all.work);
+  if (all.work != 0) bodies_.log.add_carried_work(all.work);
   for (const Unbalanced& body : all.unbalanced) bodies_.log.note_unbalanced(body);
   if (step.motion.inexact) ++inexact_steps_;
 }
@@ -184,7 +184,7 @@ void ConstrainedMotion::note_contacts(const IslandStep& step) {
 void ConstrainedMotion::begin_flights(const IslandStep& step) {
   Island& island = bodies_.islands.of(step.members.front());
   island.end = island.planned = bodies_.now + step.length;
-  for (const Entity i : step.members) modes_.hold(i);
+  for (const Entity i : step.members) modes_.constrain(i);
 
   vector<Entity> stay;
   for (uint32_t k = 0; k < step.members.size(); ++k)

@@ -192,7 +192,7 @@ ConstrainedSystem ConstrainedSteps::make_system(const IslandStep& step) const {
 
   for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
-    if (bodies_.world.moves(e)) system.carry(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
+    if (bodies_.world.moves(e)) system.add_moving(e, bodies_.fixed_position(e), bodies_.fixed_velocity(e));
     system.add(step.contacts.names[c], step.contacts.pairs[c], group_.pressing_force(i, e));
   }
   return system;
@@ -221,7 +221,7 @@ ConstrainedSystem ConstrainedSteps::find_forces(IslandStep& step) const {
                system.gap_acceleration(c, step.a) > scales.opening;
   }
 
-  system.open(opens);
+  system.open_contacts(opens);
   step.bookings.solutions.push_back(system.certificate());
   return system;
 }

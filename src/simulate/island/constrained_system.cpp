@@ -90,7 +90,7 @@ ConstrainedSystem::ConstrainedSystem(const World& world, double time, vector<Ent
   for (const Entity i : members_) inverse_mass_.push_back(1 / world.mass[i]);
 }
 
-void ConstrainedSystem::carry(Entity e, const Vec3& x, const Vec3& v) {
+void ConstrainedSystem::add_moving(Entity e, const Vec3& x, const Vec3& v) {
   if (carrier_of(e) == nullptr) carriers_.push_back({e, x, v});
 }
 
@@ -113,7 +113,7 @@ void ConstrainedSystem::add(const Contact& contact, const ContactConstraint& pai
   rows_.back().force = guess;
 }
 
-void ConstrainedSystem::open(const vector<uint8_t>& which) {
+void ConstrainedSystem::open_contacts(const vector<uint8_t>& which) {
   size_t kept = 0;
   for (size_t c = 0; c < closed_.size(); ++c) {
     if (which[c]) {

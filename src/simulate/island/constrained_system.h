@@ -39,7 +39,7 @@ class ConstrainedSystem {
   void add(const Contact& contact, const ContactConstraint& pair, double guess);
   /// Registers a fixed thing that moves, at its position (m) and velocity (m/s) at the start, before contacts with it
   /// are added.
-  void carry(Entity e, const Vec3& x, const Vec3& v);
+  void add_moving(Entity e, const Vec3& x, const Vec3& v);
   /// Whether such things do work on the members.
   bool works() const { return !carriers_.empty(); }
   /// Leaves member number k out of that work, because it does not take part in the motion.
@@ -47,7 +47,7 @@ class ConstrainedSystem {
   /// Their work (J) in the first `length` (s) of a motion that was followed. Forces change as they did then.
   double work(const DenseMotion& motion, double length) const;
   /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
-  void open(const vector<uint8_t>& which);
+  void open_contacts(const vector<uint8_t>& which);
 
   /// Accelerations (m/s^2) by member at x (m) and v (m/s): the nearest to the applied ones for which closed contacts do
   /// not approach, n . (a_b - a_a) >= -bending. Afterwards the rows hold the forces, the normals and the bending.

@@ -218,7 +218,7 @@ uint32_t ExactSimulator::process(Entity i) {
       flights_.note_changed(i);
       break;
     case Kind::release:
-      release(i, event.partner, event.feature);
+      slide_off(i, event.partner, event.feature);
       break;
 
     case Kind::step:
@@ -302,7 +302,7 @@ void ExactSimulator::switch_forces(Entity i) {
 
 /// Body i slides over the rim of the face that carries it: onto a level face, or off. In the second case the rim's edge
 /// is what it touched last.
-void ExactSimulator::release(Entity i, Entity surface, uint8_t edge) {
+void ExactSimulator::slide_off(Entity i, Entity surface, uint8_t edge) {
   const FlightOrigin next = flat_.hand_over(i, surface);
   flights_.begin(i, bodies_.position(i), bodies_.velocity(i),
                  next.partner == no_entity ? FlightOrigin{surface, edge} : next);

@@ -63,7 +63,7 @@ class ExactSimulator final : public Simulator {
   [[gnu::noinline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);
-  void release(Entity i, Entity surface, uint8_t edge);
+  void slide_off(Entity i, Entity surface, uint8_t edge);
   void end_flight(Entity i);
   bool watches() const;
   bool happens_before(const Instant& next, bool at_it);

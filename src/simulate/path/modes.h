@@ -27,7 +27,7 @@
 //                           stepped
 //     held               -> stepped    ExactGroup::unite: its island becomes one with a crowd
 //     fresh, stepped     -> held       ConstrainedMotion::begin_flights: its island takes a step this way
-//     fresh, held        -> stepped    CrowdMotion::take_in: its island takes a step as a crowd
+//     fresh, held        -> stepped    CrowdMotion::add_member: its island takes a step as a crowd
 //     held               -> asleep     ConstrainedMotion::begin_flight: it and all that it touches neither move nor can
 //     stepped            -> asleep     CrowdSleep::falls_asleep: the same
 //     held               -> flying     ConstrainedMotion::begin_flight: nothing presses on it, or only flat surfaces do

@@ -56,7 +56,7 @@ struct BodyPaths {
 
   /// Throws SimulationError unless body i's position x (m) and velocity v (m/s) at `time` (s) are within bounds.
   void hold_to_bounds(Entity i, double time, const Vec3& x, const Vec3& v) const {
-    if (!bounds.hold(x, v)) [[unlikely]]
+    if (!bounds.contain(x, v)) [[unlikely]]
       fail_out_of_bounds(bounds, i, time, x, v, remedies());
   }
 

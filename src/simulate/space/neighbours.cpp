@@ -190,7 +190,7 @@ void Neighbours::shrink(Entity i, const Vec3& x) {
   settle_down(i, x, Vec3::Zero(), lists_[i].level - wider);
 }
 
-void Neighbours::hold(Entity i, const Vec3& x, double reach) {
+void Neighbours::stay(Entity i, const Vec3& x, double reach) {
   const int level = level_for(i, x, 2 * reach);
   const double left = room(i) - (x - center(i)).norm();
   if (left >= reach && lists_[i].level <= level + wider) return;

@@ -59,7 +59,7 @@ class Neighbours {
   /// Makes a region for a body that stays about x (m). It extends at least `reach` (m) from there, and not much
   /// farther. Two bodies that both reach half of a gap are neighbours. The caller must examine the bodies that are new
   /// in the list.
-  void hold(Entity i, const Vec3& x, double reach);
+  void stay(Entity i, const Vec3& x, double reach);
 
   /// Frees memory that lists have left. Call it from time to time, when no list is being read.
   void tidy();
