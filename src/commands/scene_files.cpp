@@ -13,6 +13,7 @@
 #include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "std.h"
+#include "yaml/letters.h"
 #include "yaml/source.h"
 #include "yaml/value_json.h"
 
@@ -33,10 +34,7 @@ string text_of(const string& file) {
 }
 
 bool is_named(string_view file, std::initializer_list<string_view> endings) {
-  string ending = fs::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  return contains(endings, ending);
+  return contains(endings, in_lower_case(fs::path(file).extension().string()));
 }
 
 /// "%20" to " ".

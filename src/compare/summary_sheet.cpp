@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 
 #include "files/csv.h"
 #include "files/run_folder.h"
@@ -13,6 +12,7 @@
 #include "files/stored_table.h"
 #include "files/summary_columns.h"
 #include "std.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
@@ -133,9 +133,8 @@ void SummarySheet::write_sheet_heads() {
   map<string, int> taken;
   for (size_t k = 0; k < shown_.size(); ++k) {
     const Column& column = columns_[shown_[k]];
-    string head = column.label.substr(0, longest_name - 8), lower = head;
-    std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (const int before = taken[lower]++; before > 0) head += fmt::format(" ({})", before + 1);
+    string head = column.label.substr(0, longest_name - 8);
+    if (const int before = taken[in_lower_case(head)]++; before > 0) head += fmt::format(" ({})", before + 1);
     heads_.push_back(head);
     sheet_.head(head_row_, k, head, head_of(column.style));
   }

@@ -82,7 +82,7 @@ class Tournament {
   /// Times that differ by no more than this (s) are close. They are noted where two entries in one game have them.
   void set_close(double span) { close_ = span; }
   /// Whether two entries have been close about this time (s), which must not decrease from call to call.
-  [[gnu::always_inline]] bool close_at(double time) { return !close_times_.empty() && find_close(time); }
+  bool close_at(double time) { return !close_times_.empty() && find_close(time); }
 
   /// An entry and its time.
   struct Due {
@@ -124,7 +124,7 @@ class Tournament {
     }
   }
 
-  [[gnu::always_inline]] void play(size_t l, size_t game, uint32_t& winner, double& time) const {
+  void play(size_t l, size_t game, uint32_t& winner, double& time) const {
     const Level& level = levels_[l];
     const double* t = level.time + game * width;
 

@@ -8,7 +8,7 @@ namespace carom {
 namespace {
 
 /// The message of a reader on one line, without bytes that a terminal would interpret.
-string printable(string text) {
+string message_of(string text) {
   for (char& c : text)
     if (c < ' ' || c > '~') c = ' ';
   while (!text.empty() && text.back() == ' ') text.pop_back();
@@ -91,7 +91,7 @@ Mesh receive_mesh(const MeshReplySource& source, const MeshLimits& limits) {
   if (head.text > 0) {
     string text(min(head.text, longest_mesh_trouble), ' ');
     source.receive(text.data(), text.size());
-    throw runtime_error(printable(text));
+    throw runtime_error(message_of(text));
   }
 
   if (head.vertices > limits.vertices || head.triangles > limits.triangles || head.triangles == 0) refuse();

@@ -47,7 +47,7 @@ class FlatContacts {
   FlatContacts(ExactBodies& bodies, ModeChanges& modes, CollapseDetector& collapses)
       : bodies_(bodies), modes_(modes), collapses_(collapses), contacts_(bodies.body.size()) {}
 
-  [[gnu::always_inline]] const FlatContactList& of(Entity i) const { return contacts_[i]; }
+  const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carries(Entity i, Entity surface) const;
   /// Whether a surface that carries body i changes its velocity at the present instant.
   bool switches(Entity i) const;

@@ -68,7 +68,7 @@ class FlightChanges {
     changed_[changed_count_++] = i;
   }
   /// The bodies noted since the last call, in no order, some of them more than once. Valid until the next note.
-  [[gnu::always_inline]] span<Entity> take_changed() { return {changed_.data(), exchange(changed_count_, 0)}; }
+  span<Entity> take_changed() { return {changed_.data(), exchange(changed_count_, 0)}; }
 
   void keep(auto& archive) { archive(curved_, in_contact_, ended_); }
 

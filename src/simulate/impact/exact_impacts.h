@@ -20,7 +20,7 @@ class ExactImpacts {
 
  private:
   void bounce_off(const PairImpact& impact, Entity striker, Entity struck);
-  [[gnu::always_inline]] void apply_pair(const PairImpact& impact, double impulse, bool ends);
+  void apply_pair(const PairImpact& impact, double impulse, bool ends);
 
   ExactBodies& bodies_;
   const ImpactParts parts_;

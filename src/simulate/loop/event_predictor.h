@@ -45,8 +45,8 @@ class EventPredictor {
   [[gnu::noinline]] void be_watched(Entity i);
   void predict_among(Entity i, span<const Entity> bodies);
   [[gnu::always_inline]] void offer(Entity i, ExactEvent& best, ExactEvent candidate) const;
-  [[gnu::always_inline]] bool is_tie(const ExactEvent& first, const Instant& later) const;
-  [[gnu::always_inline]] double latest_tie(const ExactEvent& first) const;
+  bool is_tie(const ExactEvent& first, const Instant& later) const;
+  double latest_tie(const ExactEvent& first) const;
   [[gnu::noinline]] void offer_beside_contacts(Entity i, ExactEvent& best);
   void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;

@@ -45,7 +45,7 @@ class EventQueue {
   void keep(auto& archive) { archive(queue_); }
 
  private:
-  [[gnu::always_inline]] bool before(Entity i, Entity j) const;
+  bool before(Entity i, Entity j) const;
 
   const ExactBodies& bodies_;
   Tournament<Before> queue_;

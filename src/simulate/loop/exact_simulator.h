@@ -59,7 +59,7 @@ class ExactSimulator final : public Simulator {
   [[gnu::always_inline]] void predict_changed();
   void go_taut(Entity i, const ExactEvent& event);
   [[gnu::noinline]] void interrupt(Entity thing);
-  [[gnu::always_inline]] bool strike_at_once(Entity i, const ExactEvent& event);
+  bool strike_at_once(Entity i, const ExactEvent& event);
   [[gnu::noinline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);

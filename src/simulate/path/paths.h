@@ -52,7 +52,7 @@ struct BodyPaths {
   }
 
   /// What moves body i now.
-  [[gnu::always_inline]] Mode mode(Entity i) const { return body[i].mode(); }
+  Mode mode(Entity i) const { return body[i].mode(); }
 
   /// Throws SimulationError unless body i's position x (m) and velocity v (m/s) at `time` (s) are within bounds.
   void hold_to_bounds(Entity i, double time, const Vec3& x, const Vec3& v) const {
@@ -90,7 +90,7 @@ struct BodyPaths {
   /// acceleration is linear between the two ends.
   VelocityBeyond beyond_curve(Entity i, const Flight& f, double length) const;
   /// Notes the speed of body i, at velocity v (m/s) of its present flight.
-  [[gnu::always_inline]] void note_speed(Entity i, const Vec3& v) {
+  void note_speed(Entity i, const Vec3& v) {
     if (log.tally().fastest.speed < v.norm()) [[unlikely]]
       note_greatest_speed(i, v);
   }

@@ -56,7 +56,7 @@ class RegionGrid {
   static int64_t wrap(Cell c, Cell low, int64_t cells);
   Octave& octave_of(int level);
   void shape(Octave& grid, size_t regions);
-  [[gnu::always_inline]] Bucket& bucket_of(Octave& grid, const Region& region);
+  Bucket& bucket_of(Octave& grid, const Region& region);
   void link(Bucket& first, Entity i);
   void unlink(Bucket& first, Entity i);
   void take(const Bucket* from, const Bucket* end, size_t most, size_t& count, vector<Entity>& found) const;
