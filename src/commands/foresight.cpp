@@ -41,7 +41,8 @@ Ticks instants_of(const Scene& scene, Foresight& result) {
     if (ticks.count() > 1) interval = min(interval, ticks.interval());
   }
 
-  const double count = from < until ? 1 + std::round((until - from) / interval) : 1;
+  const double intervals = interval < infinity ? std::round((until - from) / interval) : 1;
+  const double count = from < until ? 1 + intervals : 1;
   const bool all = shown.size() == 1 && count <= most;
   const Ticks ticks = all ? shown.front() : Ticks::even(int64_t(min(count, double(most))), from, until);
   result.every = ticks.count() > 1 ? ticks.interval() : 0;
