@@ -90,11 +90,12 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
   sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
   sheet.note(
       1, max<size_t>(width + 1, 2),
-      fmt::format("down: {}; across: {}{}{}", label_of(plan.parameters[parameters.first]),
+      fmt::format("down: {}; across: {}{}{}{}", label_of(plan.parameters[parameters.first]),
                   label_of(plan.parameters[parameters.second]), formulas ? "; formulas over the sheet Summary" : "",
                   height < down.values.size() || width < across.values.size()
                       ? fmt::format("; only the first {} values of each", most_labels)
-                      : ""),
+                      : "",
+                  blocks < measures.size() ? fmt::format("; only the first {} measures", most_blocks) : ""),
       10 * double(max<size_t>(width + 1, 2)));
 
   // A block for each measure: its means, then their table.

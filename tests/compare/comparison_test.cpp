@@ -232,6 +232,16 @@ TEST_F(ComparisonOfSix, PivotHasNoFormulasThatTakeTwoTextsForOne) {
   }
 }
 
+TEST_F(ComparisonOfSix, PivotSaysHowManyMeasuresItHas) {
+  ComparisonPlan many = plan;
+  many.measures = {"energy_lost_J", "collisions",    "max_overlap_m", "resting",
+                   "balls.red.x_m", "balls.red.y_m", "frames"};
+  place->compare(many, runs, "many");
+  const string note = place->workbook("many")["sheets"]["Pivot"]["values"][1][0];
+  EXPECT_TRUE(note.ends_with("; only the first 6 measures")) << note;
+  EXPECT_EQ(sheet("Pivot")["values"][1][0].get<string>().find("measures"), string::npos);
+}
+
 TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
   ComparisonPlan twice = plan;
   twice.measures = {"collisions"};
