@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-
 #include "files/csv.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
