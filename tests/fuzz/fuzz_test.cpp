@@ -10,8 +10,8 @@
 namespace carom::fuzz {
 
 /// For the names of tests.
-static void PrintTo(const Target& target, std::ostream* out) {
-  *out << target.name;
+static std::ostream& operator<<(std::ostream& out, const Target& target) {
+  return out << target.name;
 }
 
 namespace {
