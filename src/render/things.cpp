@@ -23,7 +23,7 @@ raster::SolidKind kind_of(Shape shape) {
   return raster::SolidKind::ball;
 }
 
-/// Whether the point d from its centre is in the volume or on its surface.
+/// Whether the point d from its centre is in the volume or on its surface, which holds() of world_region.h leaves out.
 bool reaches(const Volume& volume, const Vec3& d) {
   const bool in_box = (d.cwiseAbs().array() <= volume.half.array()).all();
   switch (volume.shape) {

@@ -68,11 +68,15 @@ const string passing_ball =
     "simulate: {duration: 3}\n"
     "camera: {eye: [0, 0, 10], target: [0, 0, 0], fov: 90}\n";
 
+/// What `check` says of the camera.
+Json camera_seen(const Workplace& here, const string& scene) {
+  return Json::parse(here.carom({"check", scene, "--json"}).out).at("scenes").at(0).at("camera");
+}
+
 TEST(Check, ReportsWhenABodyEntersThePictureAndLeavesIt) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 100, size: [64, 64]}}\n");
-  const Json scene = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0);
-  const Json& seen = scene.at("camera");
+  const Json seen = camera_seen(here, "passing.yaml");
   EXPECT_EQ(seen.at("out_of_view_names"), Json({"passing"}));
   // In at (12 - 10.1414...) / 10 = 0.18585... s, out at 2.21414... s: found at the next picture.
   EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},
@@ -98,7 +102,7 @@ TEST(Check, WatchesTheInstantsOfAllPictures) {
   here.write("passing.yaml", passing_ball +
                                  "output: {frames: {fps: 10, size: [64, 64], from: 1, until: 1}, "
                                  "video: {fps: 100, size: [64, 64]}}\n");
-  const Json seen = Json::parse(here.carom({"check", "passing.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  const Json seen = camera_seen(here, "passing.yaml");
   EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}},
                                                {{"time_s", 2.22}, {"body", "passing"}, {"enters", false}}}));
   EXPECT_EQ(seen.at("watched_every_s"), 0.01);
@@ -109,7 +113,7 @@ TEST(Check, WhatIsGoneDoesNotLeaveThePicture) {
   here.write("removed.yaml", passing_ball +
                                  "regions: {hole: {radius: 1, position: [0, 0, 0], action: remove}}\n"
                                  "output: {frames: {fps: 100, size: [64, 64]}}\n");
-  const Json seen = Json::parse(here.carom({"check", "removed.yaml", "--json"}).out).at("scenes").at(0).at("camera");
+  const Json seen = camera_seen(here, "removed.yaml");
   EXPECT_EQ(seen.at("crossings_listed"), Json({{{"time_s", 0.19}, {"body", "passing"}, {"enters", true}}}));
 }
 
