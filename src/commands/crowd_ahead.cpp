@@ -32,7 +32,7 @@ Landing landing_of(const World& world, Entity i, const Vec3& x) {
   const Vec3 down = world.gravity.normalized();
   Landing first;
   for (Entity e = world.body_count(); e < world.entity_count(); ++e) {
-    if (!world.is_plane(e) && !world.is_wall(e)) continue;
+    if (!(world.is_plane(e) || world.is_wall(e)) || !may_meet(world, i, e)) continue;
     const Vec3& normal = world.is_plane(e) ? world.plane(e).normal : world.wall(e).normal;
     const double slope = normal.dot(down);
     const double height = normal.dot(world.fixed_position(e) - x) / slope;

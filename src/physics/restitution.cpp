@@ -36,13 +36,32 @@ bool may_be_plastic(const World& world) {
          any_of(world.pairs, [](const PairRestitution& pair) { return pair.value == 0; });
 }
 
-double pair_restitution(const World& world, Entity a, Entity b) {
+namespace {
+
+/// The last pair of the scene that has both; null: there is none.
+const PairRestitution* pair_of(const World& world, Entity a, Entity b) {
   const auto within = [](Entity e, Entity first, Entity count) { return e >= first && e - first < count; };
   for (auto pair = world.pairs.rbegin(); pair != world.pairs.rend(); ++pair) {
     if ((within(a, pair->a_first, pair->a_count) && within(b, pair->b_first, pair->b_count)) ||
         (within(b, pair->a_first, pair->a_count) && within(a, pair->b_first, pair->b_count)))
-      return pair->value;
+      return &*pair;
   }
+  return nullptr;
+}
+
+}  // namespace
+
+bool may_meet(const World& world, Entity a, Entity b) {
+  const PairRestitution* const pair = pair_of(world, a, b);
+  return pair == nullptr || pair->value;
+}
+
+bool some_pass(const World& world) {
+  return any_of(world.pairs, [](const PairRestitution& pair) { return !pair.value; });
+}
+
+double pair_restitution(const World& world, Entity a, Entity b) {
+  if (const PairRestitution* const pair = pair_of(world, a, b); pair != nullptr && pair->value) return *pair->value;
 
   const double ea = world.restitution[a];
   const double ma = world.mass[a];

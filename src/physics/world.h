@@ -66,7 +66,7 @@ enum class Combine : uint8_t { average, minimum, maximum, product, geometric_mea
 struct PairRestitution {
   Entity a_first, a_count;
   Entity b_first, b_count;
-  double value;
+  optional<double> value;  // none: they pass through each other
 };
 
 /// Bodies, fixed surfaces and the laws between them. Arrays are indexed by body.

@@ -135,7 +135,8 @@ class Checker : ValueChecker {
       Node& value = node.items[i];
       if (value.text != "none" || !value.is_scalar()) continue;
       const Field* field = find_field(kind, node.keys[i].text);
-      if (field == nullptr || field->type == Type::text || field->type == Type::color_or_none || field->own) continue;
+      if (field == nullptr || field->type == Type::text || field->own) continue;
+      if (field->type == Type::color_or_none || field->type == Type::number_or_none) continue;
       // A file may have this name, in quotes.
       if (field->type == Type::file && value.quoted) continue;
       const vector<string_view> all = field->type == Type::choice ? choices(*field) : vector<string_view>();
@@ -277,6 +278,9 @@ class Checker : ValueChecker {
 
     switch (field.type) {
       // Single values.
+      case Type::number_or_none:
+        if (is_scalar && value.text == "none") return;
+        [[fallthrough]];
       case Type::number:
         number(value, field, name, limited_range(field));
         return;

@@ -19,7 +19,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
 
   const auto a = find_range(between->items[0], inventory, Sought::anything, diagnostics);
   const auto b = find_range(between->items[1], inventory, Sought::anything, diagnostics);
-  if (!a || !b || !value) return;
+  if (!a || !b || value == nullptr || value->bad) return;
 
   // Two things that can meet.
   for (const auto& [range, name] : {pair(*a, between->items.front()), pair(*b, between->items.back())}) {
@@ -42,7 +42,7 @@ void decode_pair(const Node& node, const Inventory& inventory, Scene& scene, Dia
     return;
   }
 
-  scene.world.pairs.push_back({a->first, a->count, b->first, b->count, *value});
+  scene.world.pairs.push_back({a->first, a->count, b->first, b->count, as_number(value)});
 }
 
 bool has_effect(const UniformForce& law) {

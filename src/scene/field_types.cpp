@@ -11,6 +11,7 @@ constexpr string_view axes = "x|y|z", sides = "width|height";
 // clang-format off
 constexpr TypeFacts all_types[] = {
     {Type::number, "a number{limits}{unit}"},
+    {Type::number_or_none, "none or a number{limits}{unit}"},
     {Type::whole, "{an} whole number{limits}"},
     {Type::flag, "true or false", Inside::text},
     {Type::text, "a text", Inside::text},

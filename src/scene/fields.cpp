@@ -66,7 +66,7 @@ constexpr string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(m
 
 constexpr Field pair_fields[] = {
     row<PairKeys, &PairKeys::between>("between", "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", "[red, floor]", {.type = Type::two_names, .needed = true, .title = "Two names", .pattern = reference}),
-    row<PairKeys, &PairKeys::value>("value", "The pair's coefficient of restitution.", "0.5", {.range = from_0, .needed = true, .title = "Coefficient of restitution"}),
+    row<PairKeys, &PairKeys::value>("value", "The pair's coefficient of restitution. none: the two pass through each other.", "0.5", {.type = Type::number_or_none, .range = from_0, .needed = true, .title = "Coefficient of restitution"}),
 };
 
 constexpr Field defaults_fields[] = {

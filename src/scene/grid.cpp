@@ -6,6 +6,7 @@
 #include "geometry/touch.h"
 #include "numerics/prefetch.h"
 #include "numerics/whole.h"
+#include "physics/restitution.h"
 #include "physics/world.h"
 #include "std.h"
 
@@ -83,6 +84,7 @@ optional<BodyGrid::Overlap> BodyGrid::overlap_with(const Member& member, const M
   if (depth <= touch_tolerance(relative, min(member.radius, body.radius), member.center, body.center)) {
     return nullopt;
   }
+  if (world_ != nullptr && !may_meet(*world_, body.entity, member.entity)) return nullopt;
   return Overlap{member.entity, depth};
 }
 
@@ -189,6 +191,7 @@ optional<double> overlap_depth(const World& world, Entity body, const Vec3& cent
                        : world.is_plane(surface) ? ball_depth(center, reach, world.plane(surface))
                                                  : ball_depth(center, reach, world.wall(surface));
   if (depth <= touch_tolerance(relative, reach, center, world.fixed_position(surface))) return nullopt;
+  if (!may_meet(world, body, surface)) return nullopt;
   return depth;
 }
 

@@ -32,7 +32,7 @@ class BodyGrid {
     double depth;  // m
   };
 
-  /// Without a world all members are balls.
+  /// Without a world all members are balls that may meet.
   explicit BodyGrid(const World* world = nullptr) : world_(world) {}
 
   void reserve(size_t members);

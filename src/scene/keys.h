@@ -128,7 +128,7 @@ struct RestitutionKeys {
 
 struct PairKeys {
   const Node* between = nullptr;  // two names
-  optional<double> value;
+  const Node* value = nullptr;    // a number, or none
 };
 
 /// One law, in a window of time.

@@ -4,6 +4,7 @@
 // All random numbers come from one stream in a fixed order, so the placement is the same on every machine.
 #include "scene/placement.h"
 
+#include "physics/restitution.h"
 #include "physics/world.h"
 #include "std.h"
 
@@ -124,13 +125,14 @@ class Placer {
     const double volume = edge_.x() * edge_.y() * edge_.z();
     const double balls = double(p_.count) * (4.0 / 3 * 3.14159265358979324) * p_.radius * p_.radius * p_.radius;
     // Random sequential addition saturates at 0.384.
-    if (balls > 0.36 * volume && p_.count > 8) return {};
+    const bool apart = may_meet(world_, p_.first, p_.first);
+    if (apart && balls > 0.36 * volume && p_.count > 8) return {};
 
     const Vec3 low = p_.min.array() + p_.radius;
     const Vec3 free = (edge_.array() - 2 * p_.radius).max(0.0);
     uint64_t tries = 10'000 + 40 * p_.count;
 
-    BodyGrid grid;
+    BodyGrid grid(apart ? nullptr : &world_);
     grid.reserve(p_.count);
     Placed placed;
     placed.centers.reserve(p_.count);

@@ -175,6 +175,8 @@ Json value_schema(const Field& field) {
     // Single values.
     case Type::number:
       return number_schema(limited_range(field));
+    case Type::number_or_none:
+      return either(number_schema(limited_range(field)), cancelled());
     case Type::whole:
       return whole_schema(field.range);
     case Type::flag:

@@ -163,7 +163,7 @@ void BookSimulator::handle_pair(Entity a, Entity b) {
 /// body's side.
 void BookSimulator::handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal) {
   const double height = (x_[i] - point).dot(normal);
-  if (height < 0 || height >= world_.radius[i]) return;
+  if (height < 0 || height >= world_.radius[i] || !may_meet(world_, i, surface)) return;
   log_.note_overlap(world_.radius[i] - height);
   const double approach = -v_[i].dot(normal);
   if (approach <= 0) return;
@@ -213,7 +213,7 @@ void BookSimulator::handle_pairs() {
   for (Entity a = 0; a + 1 < n; ++a)
     for (Entity b = a + 1; b < n; ++b) {
       const double reach = world_.radius[a] + (options_.as_printed ? world_.radius[a] : world_.radius[b]);
-      if ((x_[a] - x_[b]).squaredNorm() < reach * reach) handle_pair(a, b);
+      if ((x_[a] - x_[b]).squaredNorm() < reach * reach && may_meet(world_, a, b)) handle_pair(a, b);
     }
 }
 

@@ -328,6 +328,10 @@ TEST(LoadScene, PairsNameBodiesGroupsMembersAndFixedThings) {
   EXPECT_EQ(scene.world.pairs[2].b_first, 6u);
   EXPECT_EQ(scene.world.pairs[2].b_count, 6u);
 
+  // none: they pass through each other.
+  const Scene passing = load_text(things + "restitution: {pairs: [{between: [a, room], value: none}]}\n");
+  EXPECT_FALSE(passing.world.pairs.front().value);
+
   // Names that are not there, and things that never meet.
   const string wrong = errors_of(things +
                                  "restitution: {pairs: [{between: [a, gsa], value: 1}, {between: [gas.5, room], "

@@ -4,6 +4,7 @@
 #include "simulate/space/neighbours.h"
 
 #include "physics/body_now.h"
+#include "physics/restitution.h"
 #include "simulate/space/touching.h"
 #include "std.h"
 
@@ -28,7 +29,11 @@ constexpr double farthest = 0x1p+60;
 }  // namespace
 
 Neighbours::Neighbours(const World& world)
-    : world_(world), region_(world.body_count()), lists_(world.body_count()), surfaces_(world) {}
+    : world_(world),
+      some_pass_(some_pass(world)),
+      region_(world.body_count()),
+      lists_(world.body_count()),
+      surfaces_(world) {}
 
 void Neighbours::start(const vector<Vec3>& x) {
   const Entity n = world_.body_count();
@@ -90,6 +95,14 @@ void Neighbours::find(Entity i, const Region& region) {
   found_count_ = select_touching(region, region_.data(), found_.data(), candidates, true, found_.data());
   const auto end = found_.begin() + ptrdiff_t(found_count_), own = std::find(found_.begin(), end, i);
   if (own != end) *own = found_[--found_count_];
+  if (some_pass_) [[unlikely]]
+    found_count_ = keep_those_met(i, found_, found_count_);
+}
+
+/// Moves those that body i does not pass through to the front of the first `count` in `found`. Returns their number.
+size_t Neighbours::keep_those_met(Entity i, vector<Entity>& found, size_t count) const {
+  const auto end = found.begin() + ptrdiff_t(count);
+  return size_t(std::remove_if(found.begin(), end, [&](Entity e) { return !may_meet(world_, i, e); }) - found.begin());
 }
 
 void Neighbours::tidy() {
@@ -103,6 +116,8 @@ void Neighbours::tidy() {
 void Neighbours::write(Entity i) {
   NeighbourList& list = lists_[i];
   surfaces_.find(center(i), unit_ * double(region_[i].half), found_surfaces_);
+  if (some_pass_) [[unlikely]]
+    found_surfaces_.resize(keep_those_met(i, found_surfaces_, found_surfaces_.size()));
   pool_.reserve(list, found_count_ + found_surfaces_.size());
   uint32_t* const to = pool_.data(list);
   std::copy_n(found_surfaces_.begin(), found_surfaces_.size(), std::copy_n(found_.begin(), found_count_, to));

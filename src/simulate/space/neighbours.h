@@ -1,6 +1,7 @@
 #pragma once
 // Which bodies may meet soon. A body has a region: a ball that its centre does not leave without an event. Bodies are
-// neighbours if their regions are so near that they may touch. Surfaces within its region are neighbours of a body too.
+// neighbours if their regions are so near that they may touch, unless they pass through each other. Surfaces within its
+// region are neighbours of a body too.
 // The method is that of near-neighbour lists (Donev, Torquato & Stillinger, J. Comput. Phys. 202 (2005) 737). A region
 // with few neighbours grows, so that a ball that flies off costs little, however far it goes. Results must not depend
 // on extra neighbours, nor on the order of lists.
@@ -102,6 +103,7 @@ class Neighbours {
   double rounding_at(Entity i, const Vec3& x) const;
   int level_for(Entity i, const Vec3& x, double room) const;
   void find(Entity i, const Region& region);
+  [[gnu::noinline]] size_t keep_those_met(Entity i, vector<Entity>& found, size_t count) const;
   void write(Entity i);
   void add(Entity j, Entity i);
   void drop(Entity j, Entity i);
@@ -109,6 +111,7 @@ class Neighbours {
   void settle_down(Entity i, const Vec3& x, const Vec3& ahead, int level);
 
   const World& world_;
+  const bool some_pass_;        // some pairs pass through each other: they are no neighbours
   Vec3 origin_ = Vec3::Zero();  // m
   double unit_ = 1;             // m; regions are in units of it, from origin_
   LargeVector<Region> region_;
