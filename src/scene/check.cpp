@@ -279,8 +279,6 @@ class Checker : ValueChecker {
     switch (field.type) {
       // Single values.
       case Type::number_or_none:
-        if (is_scalar && value.text == "none") return;
-        [[fallthrough]];
       case Type::number:
         number(value, field, name, limited_range(field));
         return;

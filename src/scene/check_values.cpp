@@ -63,6 +63,7 @@ bool ValueChecker::number(Node& value, const Field& field, const string& name, c
     wrong_type(value, name, "expected " + expected(field));
     return false;
   }
+  if (field.type == Type::number_or_none && value.text == "none") return true;
 
   const optional<double> parsed = value.quoted ? nullopt : parse_number(value.text);
   if (!parsed) {

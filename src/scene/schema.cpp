@@ -179,6 +179,8 @@ Json value_schema(const Field& field) {
       return either(number_schema(limited_range(field)), cancelled());
     case Type::whole:
       return whole_schema(field.range);
+
+    // Flags and texts.
     case Type::flag:
       return {{"type", "boolean"}};
     case Type::text:

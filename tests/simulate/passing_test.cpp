@@ -47,15 +47,16 @@ TEST(Passing, AGasThatPassesItselfMovesAsEachOfItsBallsAlone) {
   constexpr Entity balls = 40;
   const auto gas = [](Entity first, Entity count) {
     Problem problem;
+    problem.options.duration = 20;
     Random random(7);
     for (Entity i = 0; i < balls; ++i) {
       const Vec3 x = in_cube(random, 0.9);
       const Vec3 v = in_cube(random, 1);
       if (i >= first && i < first + count) problem.ball(x, v, 1, 0.1);
     }
+
     problem.room({-1, -1, -1}, {1, 1, 1});
     problem.world.pairs = {passing(0, count, 0, count)};
-    problem.options.duration = 20;
     return run_exact(problem);
   };
 
@@ -101,6 +102,7 @@ TEST(Passing, TwoHeapsLieInOnePlaceAsCrowds) {
       problem.ball(
           Vec3(0.22 * (i % 4) - 0.33, 0.2 + 0.25 * (i / 16), 0.22 * (i / 4 % 4) - 0.33) + in_cube(random, 0.005),
           Vec3::Zero(), 1, 0.1, 0.3);
+
   problem.room({-0.5, 0, -0.5}, {0.5, 9, 0.5});
   problem.world.pairs = {passing(0, balls, balls, balls)};
   problem.options.duration = 3;
