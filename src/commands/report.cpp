@@ -209,6 +209,10 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("no room",
                fmt::format("bodies could not rebound at {}, and absorbed {}",
                            counted(shared.without_room, "instant", "instants"), quantity(shared.absorbed, "J")));
+  if (summary.contact.appeared > 0)
+    block.line("appeared",
+               fmt::format("{} after the start, with {}", counted(summary.contact.appeared, "body", "bodies"),
+                           quantity(summary.energy.appeared, "J")));
   if (summary.contact.removed > 0)
     block.line("removed", fmt::format("{} by regions, with {}", counted(summary.contact.removed, "body", "bodies"),
                                       quantity(summary.energy.removed, "J")));

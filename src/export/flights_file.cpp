@@ -188,7 +188,7 @@ void FlightsFile::end(const Tally& tally) {
   if (file_ && in_block_ > 0) end_block(of_entries, columns_, in_block_, block_time_);
   if (!file_) return;
 
-  const bool has_end = tally.end || tally.removed.bodies > 0;
+  const bool has_end = tally.end || tally.removed.bodies + tally.appeared.bodies > 0;
   InPlace writer(file_->room(key_size * keys_.size() + end_size + tail_size));
   for (const FlightsKey& key : keys_) {
     writer.put(key.time);
@@ -201,10 +201,11 @@ void FlightsFile::end(const Tally& tally) {
     writer.put(end.time);
     writer.put(uint32_t(end.reason));
     writer.put(end.region);
-    writer.put(tally.removed.bodies);
-    writer.put(tally.removed.energy);
-    writer.put(tally.removed.momentum);
-    writer.put(0.0);
+    for (const Passage& passage : {tally.removed, tally.appeared}) {
+      writer.put(passage.bodies);
+      writer.put(passage.energy);
+      writer.put(passage.momentum);
+    }
   }
 
   writer.put(last_entry);

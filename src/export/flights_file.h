@@ -2,7 +2,7 @@
 // flights.bin: the paths of a run's bodies, from which the state at any instant can be computed, bit for bit.
 //
 // The format is little-endian, with doubles as in IEEE 754. A header of 32 bytes comes first:
-//   8 bytes "caromfly", u32 version (7), u32 0x01020304, u64 number of bodies, f64 duration (s)
+//   8 bytes "caromfly", u32 version (8), u32 0x01020304, u64 number of bodies, f64 duration (s)
 // The number of bodies has 2^63 more if collisions are recorded.
 //
 // Then come blocks of entries, sorted by the time from which they hold. Each has a header of 24 bytes:
@@ -17,7 +17,7 @@
 //   curve    f64 length L (s), then c1 to c8 (m) and p (m/s)
 //   part     the body has merged into another: which; the other one's entries are its own from here on
 //   joint    others have merged into it; its new mass (kg), radius (m) and half extents (m)
-//   removed  the body has left the world
+//   removed  the body has left the world, or has yet to come; its next piece without this mark begins as it appears
 //   fading   f64 rate (1/s): linear drag
 //   verlet   the velocities are those of Verlet's method
 //   closed   a motion in closed form from start on, with the forces of then
@@ -37,10 +37,10 @@
 //        lasting contact in crowds (s, summed over bodies), and of the impacts that contact took up
 //        the fastest (m/s) and their energy (J); the first instant with impacts that share a body (s, NaN: none), and
 //        the energy absorbed by bodies that had no room (J)
-// A run that has ended before its duration, or has lost bodies to regions, has 1 instead of the 0 of the tail. Then 64
-// bytes come before the tail:
-//   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region, u64 removed bodies,
-//   f64 their energy (J), and x, y, z of their momentum (kg m/s), f64 0
+// A run that has ended before its duration, or has lost bodies to regions, or into which bodies have come, has 1
+// instead of the 0 of the tail. Then 96 bytes come before the tail:
+//   f64 end (s, NaN: the duration), u32 reason (0 rest, 1 collisions, 2 region), u32 which region
+//   of removed bodies, then of those that have come: u64 number, f64 energy (J), and x, y, z of momentum (kg m/s)
 #include <deque>
 
 #include "export/path_codec.h"

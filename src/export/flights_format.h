@@ -11,7 +11,7 @@ namespace carom::flights_format {
 static_assert(std::endian::native == std::endian::little);
 
 inline constexpr string_view magic = "caromfly";
-inline constexpr uint32_t version = 7;
+inline constexpr uint32_t version = 8;
 inline constexpr uint32_t byte_order = 0x01020304;
 inline constexpr uint32_t last_entry = 0xffffffff;
 inline constexpr uint64_t collisions_bit = uint64_t{1} << 63;
@@ -21,7 +21,7 @@ inline constexpr size_t header_size = 32;
 inline constexpr size_t block_head = 24;
 inline constexpr size_t checksum_place = 12;  // in the head of a block
 inline constexpr size_t key_size = 24;
-inline constexpr size_t end_size = 8 * 8;
+inline constexpr size_t end_size = 12 * 8;
 inline constexpr size_t tail_size = 8 + 26 * 8;
 
 enum BlockKind : uint32_t { of_entries = 0, of_key = 1, more_of_key = 2 };

@@ -88,9 +88,11 @@ void FlightsReader::take_end(uint64_t place, const Scene& scene) {
   load(place, end_size);
   const auto time = take<double>();
   const auto reason = take<uint32_t>(), region = take<uint32_t>();
-  tally_.removed.bodies = take<uint64_t>();
-  tally_.removed.energy = take<double>();
-  for (int k = 0; k < 3; ++k) tally_.removed.momentum[k] = take<double>();
+  for (Passage* passage : {&tally_.removed, &tally_.appeared}) {
+    passage->bodies = take<uint64_t>();
+    passage->energy = take<double>();
+    for (int k = 0; k < 3; ++k) passage->momentum[k] = take<double>();
+  }
   if (std::isnan(time)) return;
   const auto by = static_cast<EndReason>(reason);
   if (!(time >= 0 && time <= scene.simulate.duration) || reason > uint32_t(EndReason::region) ||

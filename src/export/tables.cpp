@@ -242,9 +242,10 @@ void RegionTable::record_crossings(span<const RegionCrossing> crossings) {
   for (const RegionCrossing& crossing : crossings) {
     file_.written(put_number(file_.room(number_size), crossing.time));
     file_.write(",");
-    file_.write(roster_.regions[crossing.region]);
+    const bool appears = crossing.region == RegionCrossing::world;
+    if (!appears) file_.write(roster_.regions[crossing.region]);
     write_name(file_, roster_, bodies_, crossing.body);
-    file_.write(crossing.enters ? ",enter\n" : ",leave\n");
+    file_.write(appears ? ",appear\n" : crossing.enters ? ",enter\n" : ",leave\n");
   }
 }
 

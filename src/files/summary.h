@@ -17,8 +17,9 @@ struct EnergyTotals {
   double start = 0, end = 0;
   // By impacts, both recorded and taken up by contact.
   double lost = 0;
-  double work = 0;     // of forces without a potential
-  double removed = 0;  // of bodies that regions have removed
+  double work = 0;      // of forces without a potential
+  double removed = 0;   // of bodies that regions have removed
+  double appeared = 0;  // of bodies that have come after the start
   /// What neither impacts nor work account for: the error of the method, and rounding.
   double residual = 0;
   /// A lower bound of the energy that changed its form: kinetic at both ends or in between, potential, lost, work.
@@ -38,6 +39,7 @@ struct ContactCounts {
   uint64_t merges = 0;
   uint64_t tautened = 0;   // strings that went taut
   uint64_t removed = 0;    // bodies
+  uint64_t appeared = 0;   // bodies
   uint64_t collapses = 0;  // clusters that became lasting contacts
   TakenUp taken_up;
   double made = 0;  // J, by errors of the steps of crowds

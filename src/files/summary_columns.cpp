@@ -13,7 +13,7 @@ std::variant<string_view, uint64_t, double> at(const Summary& summary) {
   return (summary.*....*Path);
 }
 
-constexpr array<SummaryColumn, 26> columns = {{
+constexpr array<SummaryColumn, 27> columns = {{
     {"run", "the run's name", at<&Summary::run>},
     {"title", "the scene's title", at<&Summary::title>},
     {"engine", "the simulator: exact, stepped or book", at<&Summary::engine>},
@@ -49,6 +49,8 @@ constexpr array<SummaryColumn, 26> columns = {{
      at<&Summary::contact, &ContactCounts::taken_up, &TakenUp::energy>},
     {"contact_made_J", "the part of energy_residual_J that errors of stepped contact have made",
      at<&Summary::contact, &ContactCounts::made>},
+    {"appeared_J", "kinetic and potential energy of bodies that have come into the world after the start",
+     at<&Summary::energy, &EnergyTotals::appeared>},
 }};
 
 }  // namespace

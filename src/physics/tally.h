@@ -30,10 +30,10 @@ struct SharedImpacts {
   void keep(auto& archive) { archive(instants, ties, without_room, absorbed, first, body, one, other); }
 };
 
-/// What regions have taken out of the world.
-struct Removed {
+/// Bodies that have left the world, or that have come into it.
+struct Passage {
   uint64_t bodies = 0;
-  double energy = 0;             // J, kinetic and potential, each body's at its removal
+  double energy = 0;             // J, kinetic and potential, each body's at its passage
   Vec3 momentum = Vec3::Zero();  // kg m/s
 
   void keep(auto& archive) { archive(bodies, energy, momentum); }
@@ -119,7 +119,8 @@ struct Tally {
   double stepped_contact = 0;
   TakenUp taken_up;
   SharedImpacts shared;
-  Removed removed;
+  Passage removed;   // by regions
+  Passage appeared;  // after the start
   optional<RunEnd> end;  // none: the run goes on until its duration
 
   /// Counts a record. The end of bounces is not a collision.
@@ -142,7 +143,7 @@ struct Tally {
   void keep(auto& archive) {
     archive(body_body, body_fixed, merges, tautened, collapses, first_collision, last_collision, energy_lost);
     archive(method_error, work, force_work, doubts, max_overlap, fastest, resting, stepped_contact);
-    archive(taken_up, shared, removed, end);
+    archive(taken_up, shared, removed, appeared, end);
   }
 };
 

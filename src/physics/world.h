@@ -69,13 +69,24 @@ struct PairRestitution {
   optional<double> value;  // none: they pass through each other
 };
 
+/// Balls that come into the world one after the other, each where there is room for it.
+struct Pour {
+  Entity first, count;  // all of one radius
+  double rate;          // 1/s; the first one is due at World::appears
+  Vec3 center;          // m, of the volume in which the centres are
+  Volume within;
+  uint64_t seed;  // of their places
+};
+
 /// Bodies, fixed surfaces and the laws between them. Arrays are indexed by body.
 struct World {
   vector<double> mass;         // kg, > 0
   vector<double> radius;       // m, > 0: volume.reach(), for a ball its radius
   vector<Volume> volume;       // about the position; empty: all are spheres
   vector<double> restitution;  // >= 0; above 1 makes energy
-  vector<Vec3> impulse;        // N s, applied at time 0; empty: none
+  vector<Vec3> impulse;        // N s, applied at time 0, or as the body appears; empty: none
+  vector<double> appears;      // s, when it is due in the world; infinitely early: it is there; empty: all are there
+  vector<Pour> pours;          // of those that are due later
   vector<Plane> planes;
   vector<Wall> walls;
   vector<Obstacle> obstacles;
@@ -91,6 +102,8 @@ struct World {
   Entity fixed_count() const { return Entity(planes.size() + walls.size() + obstacles.size()); }
   Entity entity_count() const { return Entity(strings_from() + strings.size()); }
   bool is_body(Entity e) const { return e < body_count(); }
+  /// Whether body i is not in the world at the start.
+  bool comes_later(Entity i) const { return !appears.empty() && appears[i] >= 0; }
   /// Whether it is a plane, a wall or an obstacle.
   bool is_fixed(Entity e) const { return e >= body_count() && e < strings_from(); }
   bool is_plane(Entity e) const { return e >= body_count() && e - body_count() < planes.size(); }

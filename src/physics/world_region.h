@@ -22,8 +22,10 @@ struct WorldRegion {
 /// Whether a point is inside, m.
 bool holds(const WorldRegion& region, const Vec3& x);
 
-/// A body's centre enters or leaves a region.
+/// A body's centre enters or leaves a region, or a body appears in the world.
 struct RegionCrossing {
+  static constexpr uint32_t world = ~uint32_t{0};  // as a region: the body appears
+
   double time = 0;  // s
   uint32_t region = 0;
   Entity body = no_entity;

@@ -1,4 +1,4 @@
-// Balances the energy of a run: end - start - work + lost + removed = residual.
+// Balances the energy of a run: end - start - work + lost + removed - appeared = residual.
 // The residual has a column of its own and is not counted as a loss. The error of the method thus stays visible.
 #include "run/account.h"
 
@@ -114,13 +114,15 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.energy.lost = tally.energy_lost;
   summary.energy.work = tally.work;
   summary.energy.removed = tally.removed.energy;
-  summary.energy.residual =
-      summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost + summary.energy.removed;
+  summary.energy.appeared = tally.appeared.energy;
+  summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost +
+                            summary.energy.removed - summary.energy.appeared;
   summary.energy.turnover = greatest_kinetic(scene.world, start, last, tally) +
                             std::abs(last.potential - start.potential) + std::abs(tally.energy_lost) +
-                            std::abs(tally.work) + std::abs(tally.removed.energy);
+                            std::abs(tally.work) + std::abs(tally.removed.energy) + std::abs(tally.appeared.energy);
 
-  summary.momentum_drift = (momentum(scene.world, end) + tally.removed.momentum - starting_momentum(scene)).norm();
+  const Vec3 passed = tally.removed.momentum - tally.appeared.momentum;
+  summary.momentum_drift = (momentum(scene.world, end) + passed - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.fastest.speed;
   summary.resting = tally.resting;
@@ -129,6 +131,7 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.contact = {tally.merges,
                      tally.tautened,
                      tally.removed.bodies,
+                     tally.appeared.bodies,
                      tally.collapses,
                      tally.taken_up,
                      tally.doubts.contact_made,

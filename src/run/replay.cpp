@@ -74,10 +74,11 @@ void Replay::take(const PathPiece& piece) {
     const Vec3 at_rest = free_acceleration(world_, piece.body, piece.start.hi, piece.x, Vec3::Zero());
     closed_[piece.body].emplace(forces.value_or(ClosedForces{}), piece.x, piece.v, at_rest);
   }
-  if (piece.joint || piece.part_of != no_entity || piece.removed) take_joint(piece);
+  const bool out = piece.part_of != no_entity || piece.removed;
+  if (piece.joint || out || (!part_of_.empty() && part_of_[piece.body] == no_entity)) take_joint(piece);
 }
 
-/// Takes what a merge or a removal changes of the body itself.
+/// Takes what a merge, a removal or an appearance changes of the body itself.
 void Replay::take_joint(const PathPiece& piece) {
   if (part_of_.empty()) {
     part_of_.resize(world_.body_count());
@@ -86,7 +87,8 @@ void Replay::take_joint(const PathPiece& piece) {
     radius_ = world_.radius;
     volume_ = world_.volume;
   }
-  if (piece.part_of != no_entity || piece.removed) part_of_[piece.body] = piece.part_of;
+  const bool out = piece.part_of != no_entity || piece.removed;
+  part_of_[piece.body] = out ? piece.part_of : piece.body;
   if (!piece.joint) return;
   mass_[piece.body] = piece.mass;
   radius_[piece.body] = piece.radius;

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "numerics/random.h"
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/decode.h"
@@ -14,7 +15,6 @@
 #include "scene/member.h"
 #include "scene/overlaps.h"
 #include "scene/placement.h"
-#include "scene/random.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/joined.h"
@@ -32,7 +32,8 @@ class Bodies {
         scene_(scene),
         world_(scene.world),
         diagnostics_(diagnostics),
-        grid_(&scene.world) {}
+        grid_(&scene.world),
+        obstacles_(&scene.world) {}
 
   void run() {
     const size_t n = inventory_.body_count;
@@ -79,8 +80,9 @@ class Bodies {
 
     // Groups are placed when all single bodies are in the grid.
     grid_.reserve(n);
-    check_overlaps(scene_, singles_, grid_, diagnostics_);
+    check_overlaps(scene_, singles_, grid_, obstacles_, diagnostics_);
     groups();
+    hold_back();
   }
 
  private:
@@ -112,9 +114,17 @@ class Bodies {
     if (!world_.volume.empty()) fill(world_.volume, volume);
 
     fill(world_.restitution, body.restitution.value_or(default_restitution_));
+    if (const double appear = entry.group ? filled<GroupKeys>(entry.view).appear : body.appear; appear > 0)
+      fill(appearances(), appear);
     if (body.impulse.isZero(0)) return;
     if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
     fill(world_.impulse, body.impulse);
+  }
+
+  /// When bodies come into the world (s).
+  vector<double>& appearances() {
+    if (world_.appears.empty()) world_.appears.assign(inventory_.body_count, -infinity);
+    return world_.appears;
   }
 
   void single(Entity body, const BodyKeys& keys, Place place) {
@@ -162,7 +172,7 @@ class Bodies {
     const auto group = filled<GroupKeys>(view);
     const auto& [min, max] = group.in;
     const optional<Arrange> arrange = group.arrange;
-    if (!min || !max || !arrange) return;
+    if (!min || !max || (!arrange && !group.rate)) return;
 
     const double radius = world_.radius[body.first];
     if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
@@ -172,10 +182,14 @@ class Bodies {
       return;
     }
 
-    // Find the places.
+    set_velocities(body, group);
+    if (group.rate) return pour(body, group);
+
+    // Find the places. What is there now may have left when the group appears.
+    const bool later = group.appear > 0;
     const Placing placing{body.count, body.first, radius, *min, *max, *arrange};
     Random random(scene_.seed, body.key->text + "/position");
-    const Placed placed = place(placing, world_, grid_, random);
+    const Placed placed = place(placing, world_, later ? obstacles_ : grid_, random);
     if (placed.centers.size() < body.count) {
       diagnostics_.add(view.place("count"),
                        fmt::format("{} of radius {} {} not fit into the box of {}",
@@ -189,8 +203,42 @@ class Bodies {
     }
 
     ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
+    if (later) return;
     for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
-    set_velocities(body, group);
+  }
+
+  /// The balls of a group that come one after the other.
+  void pour(const BodyEntry& body, const GroupKeys& group) {
+    const double radius = world_.radius[body.first];
+    const auto& [min, max] = group.in;
+    const Vec3 half = 0.5 * (*max - *min) - Vec3::Constant(radius);
+    if (!(half.array() >= 0).all()) {
+      diagnostics_.add(body.view.part("in").place("max"),
+                       fmt::format("a ball of radius {} does not fit into the box of {}", shortest(radius),
+                                   in_backticks(body.key->text)),
+                       "expected a box as wide as a ball on every axis");
+      return;
+    }
+
+    const Vec3 center = 0.5 * *min + 0.5 * *max;
+    for (Entity k = 0; k < body.count; ++k) {
+      appearances()[body.first + k] = group.from + k / *group.rate;
+      scene_.initial.position[body.first + k] = center;
+    }
+    Random random(scene_.seed, body.key->text + "/position");
+    world_.pours.push_back({body.first, Entity(body.count), *group.rate, center, {Shape::box, half}, random.bits()});
+  }
+
+  /// Takes the bodies that come later out of the world at the start.
+  void hold_back() {
+    if (world_.appears.empty()) return;
+    State& initial = scene_.initial;
+    initial.mass = world_.mass;
+    initial.radius = world_.radius;
+    initial.volume = world_.volume;
+    initial.part_of.resize(world_.body_count());
+    for (Entity i = 0; i < world_.body_count(); ++i) initial.part_of[i] = world_.comes_later(i) ? no_entity : i;
+    initial.join_parts();
   }
 
   void set_velocities(const BodyEntry& body, const GroupKeys& group) {
@@ -215,7 +263,8 @@ class Bodies {
   vector<SingleBody> singles_;  // those without errors, by number
   /// Those with members and without errors in their balls.
   vector<const BodyEntry*> groups_;
-  BodyGrid grid_;
+  BodyGrid grid_;       // bodies and obstacles
+  BodyGrid obstacles_;  // alone
   double default_restitution_ = 1;
 };
 

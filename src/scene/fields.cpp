@@ -93,9 +93,12 @@ constexpr Field ball_position = row<BodyKeys, &BodyKeys::position>("position", "
 // The members of a repeated thing replace it before its map is checked and decoded (expand.h).
 constexpr Field repeat = row("repeat", "Makes members name.0, name.1, ... of this map. Its expressions may contain the index i, or the indices named here; the last one varies fastest.", "{i: 6, j: 4}", {.type = Type::repeat, .title = "Number of members", .own = true});
 
+constexpr string_view appear_doc = "When it comes into the world. What is in its place then must leave first. Its position, velocity and impulse are those of this instant.";
+constexpr Field appear = row<BodyKeys, &BodyKeys::appear>("appear", appear_doc, "1.5", {.unit = "s", .range = from_0});
+
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, mesh, repeat,
+    ball_position, ball_velocity, ball_restitution, impulse, appear, body_color_field, mesh, repeat,
 };
 
 constexpr string_view volumes = "radius|cylinder|box|fit";
@@ -110,7 +113,7 @@ template <typename Keys> constexpr Field mesh_of = row<Keys, &Keys::mesh>("mesh"
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
-    ball_position, ball_velocity, ball_restitution, impulse, body_color_field, repeat,
+    ball_position, ball_velocity, ball_restitution, impulse, appear, body_color_field, repeat,
 };
 
 constexpr Field cylinder_fields[] = {
@@ -131,13 +134,17 @@ constexpr Field start_fields[] = {
 };
 
 constexpr Field group_fields[] = {
-    row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .needed = true}),
+    row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .one_of = "count|rate", .needed = true}),
     row("ball", "A ball of the group, without position. Not needed where defaults.ball has all of it.", "{mass: 1, radius: 0.1}", {.type = Type::part, .of = "member", .needed = true}),
     row<GroupKeys, &GroupKeys::in>("in", "The box that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members", .needed = true, .title = "Box of the balls"}),
-    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members"}),
+    row<GroupKeys, &GroupKeys::appear>("appear", "When the balls come into the world, each where its place is free.", "1.5", {.unit = "s", .range = from_0, .one_of = "appear|rate"}),
+    row_if_given<GroupKeys, &GroupKeys::rate>("rate", "Balls that come one after the other, so many in a second, in place of `count`. Each comes at a place in `in` where there is room, by the seed; where there is none, it tries again after 1/rate.", "50", {.unit = "1/s", .range = above_0, .one_of = "rate|count|members|arrange|appear", .title = "Balls in a second"}),
+    row<GroupKeys, &GroupKeys::from>("from", "When the first ball of `rate` comes.", "0", {.unit = "s", .range = from_0, .with = "rate"}),
+    row_if_given<GroupKeys, &GroupKeys::until>("until", "The balls of `rate` come before this time. Default: the run's end.", "4", {.unit = "s", .range = from_0, .with = "rate"}),
+    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members|rate"}),
     row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members"}),
     row<GroupKeys, &GroupKeys::velocity>("velocity", "Velocity of every ball at time 0.", "[0, -1, 0]", {.unit = "m/s", .one_of = "speed|velocity|members"}),
-    row("members", "Each ball's position and velocity, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity", .title = "Balls one by one"}),
+    row("members", "Each ball's position and velocity, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity|rate", .title = "Balls one by one"}),
     repeat,
 };
 

@@ -40,7 +40,7 @@ class Census {
     const BodyEntry* most = nullptr;
     for (BodyEntry& body : inventory_.bodies) {
       body.first = Entity(total);
-      if (body.group) body.count = filled<GroupKeys>(body.view).count;
+      if (body.group) body.count = count_of(filled<GroupKeys>(body.view));
       total = body.count > most_bodies || total + body.count > most_bodies ? most_bodies + 1 : total + body.count;
       if (most == nullptr || body.count > most->count) most = &body;
     }
@@ -50,6 +50,17 @@ class Census {
   }
 
  private:
+  /// The number of a group's balls. With a rate: those due from `from` until just before `until`.
+  uint64_t count_of(const GroupKeys& group) const {
+    if (!group.rate) return group.count;
+    const double duration = scene_part(root_, "simulate").number("duration").value_or(0);
+    const double until = min(group.until.value_or(duration), duration);
+    if (!(until > group.from)) return 0;
+    double count = ceil((until - group.from) * *group.rate);
+    while (count > 0 && group.from + (count - 1) / *group.rate >= until) --count;
+    return count < double(most_bodies) ? uint64_t(count) : most_bodies + 1;
+  }
+
   void claim(const Key& key) {
     if (inventory_.names.emplace(key.text, Inventory::Range{0, 0}).second) return;
     diagnostics_.add(key.place, fmt::format("the name {} is taken", in_backticks(key.text)),

@@ -23,8 +23,8 @@ class MotionText {
 
   string run() {
     simulate();
-    const auto& [mass, radius, volume, restitution, impulse, planes, walls, obstacles, motions, forces, gravity,
-                 combine, pairs, regions, strings] = scene_.world;
+    const auto& [mass, radius, volume, restitution, impulse, appears, pours, planes, walls, obstacles, motions, forces,
+                 gravity, combine, pairs, regions, strings] = scene_.world;
 
     line("gravity", gravity, "combine", int(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
@@ -34,7 +34,10 @@ class MotionText {
       line("body", mass[i], radius[i], restitution[i], scene_.initial.position[i], scene_.initial.velocity[i]);
       if (!volume.empty()) line("volume", volume[i]);
       if (!impulse.empty()) line("impulse", impulse[i]);
+      if (!appears.empty()) line("appears", appears[i]);
     }
+    for (const auto& [first, count, rate, center, within, seed] : pours)
+      line("pour", first, count, rate, center, within, seed);
 
     // Fixed things.
     for (const auto& [point, normal, own] : planes) line("plane", point, normal, own);

@@ -101,7 +101,8 @@ class Overlaps {
 
 }  // namespace
 
-void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics) {
+void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& grid, BodyGrid& obstacles,
+                    Diagnostics& diagnostics) {
   const World& world = scene.world;
   const auto member = [&](Entity body) {
     return BodyGrid::Member{scene.initial.position[body], world.radius[body], body};
@@ -120,6 +121,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
   Overlaps found(scene, diagnostics);
 
   for (const SingleBody& single : singles) {
+    if (world.comes_later(single.body)) continue;
     if (const auto first = grid.find_overlap(member(single.body), rounding_of_places)) {
       const bool too_many = found.size() > max_overlaps_kept;
       vector<BodyGrid::Overlap> all{*first};
@@ -139,7 +141,6 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
   }
 
   // Obstacles may stand in one another. One with an error has no volume.
-  BodyGrid obstacles(&world);
   vector<BodyGrid::Member> members;
   const auto surfaces = Entity(world.planes.size() + world.walls.size());
   for (size_t i = 0; i < world.obstacles.size(); ++i) {
@@ -152,13 +153,18 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
                       [](const BodyGrid::Member& a, const BodyGrid::Member& b) { return a.radius > b.radius; });
   for (const BodyGrid::Member& obstacle : members) obstacles.insert(obstacle);
 
+  const auto may_leave = [&](const SingleBody& single, Entity e) {
+    return world.comes_later(single.body) && world.moves(e);
+  };
   for (const SingleBody& single : singles) {
     if (const auto overlap = obstacles.find_overlap(member(single.body), rounding_of_places)) {
-      found.add({single.body, overlap->entity, overlap->depth, single.position});
+      if (!may_leave(single, overlap->entity))
+        found.add({single.body, overlap->entity, overlap->depth, single.position});
     }
     for (Entity surface = world.body_count(); surface < world.body_count() + surfaces; ++surface) {
       const Vec3& center = scene.initial.position[single.body];
-      if (const auto depth = overlap_depth(world, single.body, center, surface, rounding_of_places)) {
+      const auto depth = overlap_depth(world, single.body, center, surface, rounding_of_places);
+      if (depth && !may_leave(single, surface)) {
         found.add({single.body, surface, *depth, single.position});
       }
     }

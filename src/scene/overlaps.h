@@ -19,8 +19,10 @@ struct SingleBody {
 
 /// Adds an error for each body that overlaps another body, a plane, a wall or an obstacle. Many are one error, with the
 /// deepest overlap.
-/// The tolerance is 1e-9 of the smaller one's reach. Then the bodies and the obstacles are inserted into `grid`.
+/// Those that come later may overlap bodies, and things that move. The tolerance is 1e-9 of the smaller one's reach.
+/// Then the other bodies and the obstacles are inserted into `grid`, and these alone into `obstacles`.
 /// `singles`: in the order of their numbers. Their part of the world and of the initial state must be decoded.
-void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& grid, Diagnostics& diagnostics);
+void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& grid, BodyGrid& obstacles,
+                    Diagnostics& diagnostics);
 
 }  // namespace carom

@@ -4,7 +4,7 @@
 #include "physics/entity.h"
 #include "scene/grid.h"
 #include "scene/keys.h"
-#include "scene/random.h"
+#include "numerics/random.h"
 #include "std.h"
 
 namespace carom {

@@ -1,7 +1,7 @@
 #pragma once
 // Numbers drawn from ranges by a seed, for sweeps: independently, or as a Latin hypercube.
 
-#include "scene/random.h"
+#include "numerics/random.h"
 #include "std.h"
 #include "yaml/decimal.h"
 

@@ -25,12 +25,11 @@ void EventLog::record(const Collision& collision) {
                                       max_collisions_, collision.time));
 }
 
-void EventLog::remove(double energy, const Vec3& momentum) {
-  Removed& all = tally_.removed;
-  ++all.bodies;
-  removed_.add(energy);
-  all.energy = removed_.value();
-  all.momentum += momentum;
+void EventLog::pass(Passage& passage, Sum& sum, double energy, const Vec3& momentum) {
+  ++passage.bodies;
+  sum.add(energy);
+  passage.energy = sum.value();
+  passage.momentum += momentum;
 }
 
 void EventLog::note(const SharedImpacts& now) {

@@ -103,7 +103,9 @@ class EventLog {
   void note(const SharedImpacts& now);
   void count_collapse() { ++tally_.collapses; }
   /// Books a body that leaves the world, with its energy (J) and momentum (kg m/s).
-  void remove(double energy, const Vec3& momentum);
+  void remove(double energy, const Vec3& momentum) { pass(tally_.removed, removed_, energy, momentum); }
+  /// The same for one that comes into the world.
+  void appear(double energy, const Vec3& momentum) { pass(tally_.appeared, appeared_, energy, momentum); }
   void end(const RunEnd& end) { tally_.end = end; }
   /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {
@@ -112,7 +114,7 @@ class EventLog {
   const Tally& tally() const { return tally_; }
 
   void keep(auto& archive) {
-    archive(collisions_, tally_, energy_lost_, absorbed_, made_, method_error_, work_, removed_);
+    archive(collisions_, tally_, energy_lost_, absorbed_, made_, method_error_, work_, removed_, appeared_);
     archive.sized(force_work_);
   }
 
@@ -125,12 +127,14 @@ class EventLog {
     tally_.taken_up.energy = absorbed_.value();
   }
 
+  static void pass(Passage& passage, Sum& sum, double energy, const Vec3& momentum);
+
   const uint64_t max_collisions_;
   const bool record_collisions_;
   vector<Collision> collisions_;
   Tally tally_;
-  Sum energy_lost_, absorbed_, made_, method_error_, work_, removed_;  // J
-  vector<Sum> force_work_;                                             // J
+  Sum energy_lost_, absorbed_, made_, method_error_, work_, removed_, appeared_;  // J
+  vector<Sum> force_work_;                                                        // J
 };
 
 }  // namespace carom

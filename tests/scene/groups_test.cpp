@@ -3,7 +3,7 @@
 
 #include "physics/world.h"
 #include "scene/marked_errors.h"
-#include "scene/random.h"
+#include "numerics/random.h"
 #include "scene/scene.h"
 #include "std.h"
 

@@ -3,7 +3,7 @@
 #include <sys/stat.h>
 
 #include "physics/world.h"
-#include "scene/random.h"
+#include "numerics/random.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "slow_with_sanitizers.h"

@@ -81,9 +81,9 @@ class BitHash {
 
   void one(const Tally& tally) {
     const auto& [body_body, body_fixed, merges, tautened, collapses, first, last, lost, method_error, work, force_work,
-                 doubts, overlap, fastest, resting, stepped, taken_up, shared, removed, end] = tally;
+                 doubts, overlap, fastest, resting, stepped, taken_up, shared, removed, appeared, end] = tally;
     add(body_body, body_fixed, merges, tautened, collapses, first, last, lost, method_error, work, force_work);
-    add(doubts, overlap, fastest, resting, stepped, taken_up, shared, removed, end.has_value());
+    add(doubts, overlap, fastest, resting, stepped, taken_up, shared, removed, appeared, end.has_value());
     if (!end) return;
     const auto& [time, reason, region] = *end;
     add(time, reason, region);
@@ -106,7 +106,7 @@ class BitHash {
     const auto& [instants, ties, without_room, absorbed, first, body, a, b] = shared;
     add(instants, ties, without_room, absorbed, first, body, a, b);
   }
-  void one(const Removed& removed) {
+  void one(const Passage& removed) {
     const auto& [bodies, energy, momentum] = removed;
     add(bodies, energy, momentum);
   }

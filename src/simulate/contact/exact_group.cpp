@@ -123,6 +123,8 @@ void ExactGroup::join_initial(Entity first) {
 
     for (const Entity e : bodies_.neighbours_of(i)) {
       const Flight f = bodies_.flights[i];
+      const Vec3 x = bodies_.position(i);
+      const Vec3 v = bodies_.velocity(i);
       const bool body = world.is_body(e);
       const bool i_in = in_lasting_contact(bodies_.mode(i));
       const bool e_in = body && in_lasting_contact(bodies_.mode(e));
@@ -132,18 +134,18 @@ void ExactGroup::join_initial(Entity first) {
       const Vec3 ve = bodies_.velocity_of(e);
       // A run may begin with the state of another one, in which contacts hold within the method's error.
       const double near =
-          max(exact_tolerance::initial_rounding * (f.x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
-              bodies_.contact_gap(i, f.x, xe));
-      if (body && (xe - f.x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
+          max(exact_tolerance::initial_rounding * (x.cwiseAbs().sum() + xe.cwiseAbs().sum() + world.radius[i]),
+              bodies_.contact_gap(i, x, xe));
+      if (body && (xe - x).norm() > world.radius[i] + world.radius[e] + 2 * near) continue;
 
       // The two must touch, without speed along the normal.
-      const Touch there = touch(world, i, f.x, e, xe);
+      const Touch there = touch(world, i, x, e, xe);
       if (std::abs(there.gap) > near) continue;
-      const Vec3 w = ve - f.v;
-      if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, f.v, ve)) continue;
+      const Vec3 w = ve - v;
+      if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, v, ve)) continue;
 
       // Where neither is in an island yet, they must be pressed together.
-      const double press = -(there.normal.dot(bodies_.pull_of(e) - f.a) + bending(world, i, f.x, e, xe, there, w));
+      const double press = -(there.normal.dot(bodies_.pull_of(e) - f.acceleration(bodies_.now - f.start)) + bending(world, i, x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
 
       // Both then belong to one island.

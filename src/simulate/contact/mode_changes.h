@@ -31,6 +31,9 @@ class ModeChanges {
   /// A body leaves the world: as a part of another one, or removed.
   void merge(Entity i) { change(i, Mode::part, false); }
   void remove(Entity i);
+  /// A body has yet to come into the world, or comes into it.
+  void hold_back(Entity i) { change(i, Mode::awaited, false); }
+  void appear(Entity i) { change(i, Mode::flying, false); }
 
   /// The things that constrained motion keeps body i in contact with. Sleepers keep those of their last step.
   const vector<Entity>& partners(Entity i) const { return partners_[i]; }

@@ -68,6 +68,7 @@ void EventPredictor::predict_all() {
   };
 
   for (Entity i = 0; i < bodies_.world.body_count(); ++i) {
+    if (!is_in_world(bodies_.mode(i))) continue;
     if (bodies_.islands.any()) {
       predict(i);
       continue;

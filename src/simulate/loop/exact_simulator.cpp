@@ -4,6 +4,7 @@
 // the caller keeps control.
 #include "simulate/loop/exact_simulator.h"
 
+#include "geometry/touch.h"
 #include "physics/archive.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
@@ -28,7 +29,8 @@ unique_ptr<Simulator> make_exact_simulator(const World& world, const State& init
 }
 
 ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
-    : bodies_(world, options),
+    : initial_(world.appears.empty() ? State{} : initial),
+      bodies_(world, options),
       crossings_(bodies_, [this](Entity i) { return bodies_.flight_end(i); }),
       paths_(bodies_, crossings_),
       collapses_(bodies_),
@@ -44,6 +46,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       merging_(bodies_, modes_, group_, flat_, flights_, paths_),
       guard_(world.body_count(), options.duration),
       impacts_(bodies_, {collapses_, flat_, group_, flights_, merging_, guard_}),
+      appearances_(bodies_, initial_),
       attends_(watches() || world.body_count() > cached_bodies) {
   start(initial);
 }
@@ -73,9 +76,13 @@ void ExactSimulator::start(const State& initial) {
 
   const Entity n = world.body_count();
   for (Entity i = 0; i < n; ++i) {
+    const Vec3& x = initial.position[i];
+    if (world.comes_later(i)) {
+      hold_back(i, x);
+      continue;
+    }
     Vec3 v = initial.velocity[i];
     if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
-    const Vec3& x = initial.position[i];
     if (!world.forces.empty()) bodies_.apply_forces(i, x, v);
     bodies_.flights.set(i, {{}, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
     bodies_.note_speed(i, v);
@@ -89,10 +96,11 @@ void ExactSimulator::start(const State& initial) {
   // Contacts at the start: with flat surfaces, with other things, along strings.
   if (!bodies_.options.merge) {
     for (Entity i = 0; i < n; ++i)
-      if (!bodies_.applied[i].isZero(0) && !bodies_.bent[i]) flat_.find_initial(i);
+      if (is_in_world(bodies_.mode(i)) && !bodies_.applied[i].isZero(0) && !bodies_.bent[i]) flat_.find_initial(i);
     // Where no force acts, nothing presses.
     if (!(world.gravity.isZero(0) && world.forces.empty()))
-      for (Entity i = 0; i < n; ++i) group_.join_initial(i);
+      for (Entity i = 0; i < n; ++i)
+        if (is_in_world(bodies_.mode(i))) group_.join_initial(i);
     if (bodies_.ties.any()) group_.join_by_strings();
   }
 
@@ -108,6 +116,13 @@ void ExactSimulator::start(const State& initial) {
 
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
+}
+
+/// Keeps body i, which comes later, out of the world, at x (m).
+void ExactSimulator::hold_back(Entity i, const Vec3& x) {
+  bodies_.merged.remove(i);
+  bodies_.flights.set(i, {{}, x, Vec3::Zero(), Vec3::Zero()});
+  modes_.hold_back(i);
 }
 
 /// Takes the first step of body i's island. With strings it may be an impact, as by an impulse along a rod. It is then
@@ -319,11 +334,12 @@ void ExactSimulator::end_flight(Entity i) {
 
 bool ExactSimulator::watches() const {
   const ExactOptions& options = bodies_.options;
-  return crossings_.any() || options.stop_at_rest || options.stop_collisions > 0;
+  const bool stops = options.stop_at_rest || options.stop_collisions > 0;
+  return crossings_.any() || stops || !bodies_.world.appears.empty();
 }
 
 /// When everything at the present instant has happened, and the next event is at `next`: ends the run, or takes a
-/// crossing before that. `at_it`: or at that instant. Returns whether either has happened.
+/// crossing or what comes into the world before that. `at_it`: or at that instant. Returns whether either has happened.
 bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
   if (is_over()) return false;
   if (!at_it && !(bodies_.now < next)) return false;
@@ -336,7 +352,13 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
   } else {
     paths_.record_changes();
     const Instant sure = crossings_.first_sure();
-    if (!(at_it ? sure <= next : sure < next)) return false;
+    const Instant comes = appearances_.any() ? appearances_.next() : Instant{never, 0};
+    const Instant first = min(sure, comes);
+    if (!(at_it ? first <= next : first < next) || first.hi > options.duration) return false;
+    if (comes < sure) {
+      take_appearances(comes);
+      return true;
+    }
     take_crossing(crossings_.take());
     if (!is_over()) return true;
   }
@@ -371,6 +393,51 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   }
 
   if (region.stops) end_by(taken);
+}
+
+/// Lets the bodies come into the world that are due at an instant and have room.
+void ExactSimulator::take_appearances(const Instant& at) {
+  if (bodies_.now < at) bodies_.now = at;
+  while (const optional<Appearances::Admitted> admitted = appearances_.take()) admit(*admitted);
+}
+
+/// Lets a body come into the world at present. It begins as the others did at the start.
+void ExactSimulator::admit(const Appearances::Admitted& admitted) {
+  const auto& [i, x] = admitted;
+  const World& world = bodies_.world;
+  Vec3 v = initial_.velocity[i];
+  if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
+
+  paths_.note_change(i);
+  modes_.appear(i);
+  bodies_.merged.admit(i);
+  bodies_.apply_forces(i, x, v);
+  bodies_.flights.set(i, {bodies_.now, x, v, bodies_.force_at(i, x, v), bodies_.fade[i]});
+  bodies_.note_speed(i, v);
+  bodies_.log.appear(0.5 * world.mass[i] * v.squaredNorm() + bodies_.merged.potential(i, x), world.mass[i] * v);
+  crossings_.note_appearance(i);
+
+  // Its contacts. They are found between flights that begin at present.
+  const vector<Entity> near = bodies_.neighbours_of(i);
+  for (const Entity e : near) {
+    if (!world.is_body(e)) continue;
+    interrupt(e);
+    const Vec3 xe = bodies_.position(e);
+    if (touch(world, i, x, e, xe).gap > 2 * bodies_.contact_gap(i, x, xe)) continue;
+    flights_.end_step(e);
+    switch_forces(e);
+  }
+  if (!bodies_.options.merge) {
+    if (!bodies_.applied[i].isZero(0) && !bodies_.bent[i]) flat_.find_initial(i);
+    if (!(world.gravity.isZero(0) && world.forces.empty())) group_.join_initial(i);
+  }
+  if (bodies_.flies_in_steps(i) && bodies_.mode(i) == Mode::flying) flights_.let_fall(i);
+
+  flights_.count(i);
+  flights_.note_changed(i);
+  if (bodies_.mode(i) == Mode::fresh) begin_island(i);
+  predict_changed();
+  guard_.count(StallGuard::Happened::other, bodies_.now.hi);
 }
 
 /// Ends the run by a crossing, unless it is over.
@@ -418,6 +485,7 @@ bool ExactSimulator::rests(Entity i) const {
 
 /// Whether all bodies rest. The search begins at a body that moved before, so that it seldom goes far.
 bool ExactSimulator::all_rest() {
+  if (appearances_.any() && appearances_.next().hi < bodies_.options.duration) return false;
   const Entity n = bodies_.world.body_count();
   for (Entity looked = 0; looked < n; ++looked) {
     if (!rests(answers_.awake)) return false;
@@ -435,7 +503,7 @@ void ExactSimulator::keep(Archive& archive) {
   archive.same(options.duration, options.merge, options.record_collisions, options.record_paths);
 
   archive(bodies_, crossings_, paths_, collapses_, modes_, flat_, group_, flights_, queue_, predictor_);
-  archive(islands_, guard_, effort_, time_);
+  archive(islands_, guard_, appearances_, effort_, time_);
 }
 
 string ExactSimulator::save() {

@@ -11,6 +11,7 @@
 #include "simulate/impact/impacts.h"
 #include "simulate/impact/stall_guard.h"
 #include "simulate/island/island_motion.h"
+#include "simulate/loop/appearances.h"
 #include "simulate/loop/event_predictor.h"
 #include "simulate/loop/event_prefetch.h"
 #include "simulate/loop/event_queue.h"
@@ -53,6 +54,7 @@ class ExactSimulator final : public Simulator {
   template <typename Archive>
   void keep(Archive& archive);
   void start(const State& initial);
+  void hold_back(Entity i, const Vec3& x);
   void begin_island(Entity i);
   uint32_t take_event(Entity i);
   uint32_t process(Entity i);
@@ -68,6 +70,8 @@ class ExactSimulator final : public Simulator {
   bool watches() const;
   bool happens_before(const Instant& next, bool at_it);
   void take_crossing(const Crossings::Taken& taken);
+  void take_appearances(const Instant& at);
+  void admit(const Appearances::Admitted& admitted);
   void end_by(const Crossings::Taken& taken);
   void book_last(double time);
   void end_run(double time, EndReason reason, uint32_t region);
@@ -75,6 +79,7 @@ class ExactSimulator final : public Simulator {
   bool rests(Entity i) const;
   bool all_rest();
 
+  const State initial_;  // of bodies that come later, else empty
   ExactBodies bodies_;
   Crossings crossings_;
   PathLog paths_;
@@ -90,6 +95,7 @@ class ExactSimulator final : public Simulator {
   BodyMerging merging_;
   StallGuard guard_;
   Impacts impacts_;
+  Appearances appearances_;
   Effort effort_;
   double time_ = 0;  // s: time that advance_to has reached
   // Whether regions or the run's end depend on the paths between events, or events are prefetched.

@@ -45,6 +45,7 @@ bool Crossings::before(Entity i, Entity j) const {
 }
 
 void Crossings::follow(Entity i, const Instant& from) {
+  if (bodies_.mode(i) == Mode::awaited) return;
   if (!is_in_world(bodies_.mode(i))) return forget(i);
   if (!next_[i].empty()) next_.write(i).clear();
   for (uint32_t r = 0; r < bodies_.world.regions.size(); ++r)
@@ -132,9 +133,11 @@ optional<Crossings::Taken> Crossings::take_of(Entity i, const Instant& last) {
 }
 
 void Crossings::sort() {
-  ranges::sort(recorded_, [](const RegionCrossing& p, const RegionCrossing& q) {
-    return tie(p.time, p.region, p.body) < tie(q.time, q.region, q.body);
-  });
+  // A body appears before it enters regions.
+  const auto key = [](const RegionCrossing& c) {
+    return std::tuple(c.time, c.region != RegionCrossing::world, c.region, c.body);
+  };
+  ranges::sort(recorded_, [&](const RegionCrossing& p, const RegionCrossing& q) { return key(p) < key(q); });
 }
 
 }  // namespace carom

@@ -41,7 +41,13 @@ class Crossings {
   /// The same for one of body i that is at the instant `last` at the latest.
   optional<Taken> take_of(Entity i, const Instant& last);
 
-  /// Since the last begin_advance. Sorted by time, region and body after sort().
+  /// Records that body i appears in the world at present.
+  void note_appearance(Entity i) {
+    recorded_.push_back({max(bodies_.now.hi, latest_), RegionCrossing::world, i, true});
+  }
+
+  /// Since the last begin_advance. Sorted by time, region and body after sort(), with
+  /// appearances first.
   span<const RegionCrossing> recorded() const { return recorded_; }
   void sort();
   bool full() const { return recorded_.size() >= capacity; }

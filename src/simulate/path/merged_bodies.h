@@ -1,6 +1,6 @@
 #pragma once
 // Bodies that have merged: the parts of each joint body, and the World with the joint masses and volumes. Forces act on
-// the parts. Bodies that have left the world are marked too.
+// the parts. Bodies out of the world are marked too.
 
 #include "physics/world.h"
 #include "std.h"
@@ -23,7 +23,7 @@ class MergedBodies {
   bool any() const { return !whole_of_.empty(); }
   const vector<Entity>& whole_of() const {
     return whole_of_;
-  }  // by body: the body that it is part of; no_entity: it has left the world; empty: none has merged or left
+  }  // by body: the body that it is part of; no_entity: it is out of the world; empty: there is neither
 
   /// The parts of body i; none: only itself.
   span<const Entity> parts_of(Entity i) const {
@@ -40,6 +40,8 @@ class MergedBodies {
   void join(Entity whole, Entity part);
   /// Takes body i, with its parts, out of the world.
   void remove(Entity i);
+  /// Lets one that is out of the world come into it.
+  void admit(Entity i) { whole_of_[i] = i; }
 
   void keep(auto& archive) {
     if (joint_) archive.sized(joint_->mass, joint_->radius, joint_->volume, joint_->restitution);

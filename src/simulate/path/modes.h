@@ -13,6 +13,7 @@
 //     asleep    nothing: contact forces are in balance          exactly zero
 //     part      the body that it has merged into                none of its own
 //     gone      nothing: it has left the world                  none
+//     awaited   nothing: it has yet to come into the world      none
 //
 // All changes, each with the function that makes it:
 //
@@ -37,6 +38,8 @@
 //       stepped
 //     flying             -> part       BodyMerging::join, which takes it off its surfaces before
 //     flying             -> gone       BodyRemoval::remove, which takes it off its surfaces before
+//     flying             -> awaited    ExactSimulator::hold_back, at the start
+//     awaited            -> flying     Appearances::admit: it comes into the world, where there is room for it
 //     fresh, held,       -> gone       BodyRemoval::remove, which wakes a sleeper before
 //       stepped
 //
@@ -48,8 +51,8 @@
 namespace carom {
 
 /// What moves a body now, as in the table above.
-enum class Mode : uint8_t { flying, settling, carried, fresh, held, stepped, asleep, part, gone };
-inline constexpr size_t number_of_modes = 9;
+enum class Mode : uint8_t { flying, settling, carried, fresh, held, stepped, asleep, part, gone, awaited };
+inline constexpr size_t number_of_modes = 10;
 
 /// Whether the body moves by itself or on flat surfaces.
 constexpr bool is_free(Mode mode) {
@@ -71,7 +74,7 @@ constexpr bool in_lasting_contact(Mode mode) {
 constexpr bool is_kicked(Mode mode) {
   return mode == Mode::stepped;
 }
-/// Whether it is neither a part of another body nor gone.
+/// Whether it is neither a part of another body nor gone nor awaited.
 constexpr bool is_in_world(Mode mode) {
   return mode < Mode::part;
 }
@@ -83,7 +86,7 @@ constexpr bool may_become(Mode from, Mode to) {
   switch (from) {
     // Free.
     case flying:
-      return to_one_of(settling, carried, fresh, part, gone);
+      return to_one_of(settling, carried, fresh, part, gone, awaited);
     case settling:
       return to_one_of(flying, carried, fresh);
     case carried:
@@ -103,6 +106,8 @@ constexpr bool may_become(Mode from, Mode to) {
     case part:
     case gone:
       return false;
+    case awaited:
+      return to_one_of(flying);
   }
   return false;
 }

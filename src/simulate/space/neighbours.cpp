@@ -52,6 +52,7 @@ void Neighbours::start(const vector<Vec3>& x) {
 
   vector<pair<int, size_t>> expected;  // regions, by level
   for (Entity i = 0; i < n; ++i) {
+    if (world_.comes_later(i)) continue;
     const int level = level_for(i, x[i], first_room * world_.radius[i]);
     region_[i] = around(x[i], level);
     lists_[i].level = int16_t(level);
@@ -61,8 +62,10 @@ void Neighbours::start(const vector<Vec3>& x) {
 
   // All regions enter the grid before the first list is written.
   for (const auto& [level, regions] : expected) grid_.expect(level, regions);
-  for (Entity i = 0; i < n; ++i) grid_.put(i, region_, lists_[i].level);
+  for (Entity i = 0; i < n; ++i)
+    if (!world_.comes_later(i)) grid_.put(i, region_, lists_[i].level);
   for (Entity i = 0; i < n; ++i) {
+    if (world_.comes_later(i)) continue;
     find(i, region_[i]);
     write(i);
   }
@@ -70,6 +73,15 @@ void Neighbours::start(const vector<Vec3>& x) {
   // Crowded regions shrink.
   for (Entity i = 0; i < n; ++i)
     if (bodies(i).size() > 2 * many_neighbours) shrink(i, x[i]);
+}
+
+void Neighbours::admit(Entity i, const Vec3& x) {
+  lists_[i].level = int16_t(level_for(i, x, first_room * world_.radius[i]));
+  region_[i] = around(x, lists_[i].level);
+  grid_.put(i, region_, lists_[i].level);
+  find(i, region_[i]);
+  for (size_t k = 0; k < found_count_; ++k) add(found_[k], i);
+  write(i);
 }
 
 Region Neighbours::around(const Vec3& x, int level) const {

@@ -22,8 +22,10 @@ class Neighbours {
   /// `world` must outlive this object.
   explicit Neighbours(const World& world);
 
-  /// Places all bodies at once, at their positions at the start (m).
+  /// Places all bodies at once, at their positions at the start (m), but for those that come later.
   void start(const vector<Vec3>& x);
+  /// Places a body that comes later at x (m). The caller must examine its neighbours.
+  void admit(Entity i, const Vec3& x);
 
   /// Bodies that body i may meet within its region, and surfaces.
   span<const Entity> bodies(Entity i) const { return near(i).first(lists_[i].count - lists_[i].surfaces); }

@@ -1,7 +1,7 @@
 // SplitMix64 with a seed mixed from the scene's seed and the FNV-1a hash of the stream's name.
 // Normal deviates use Marsaglia's polar method, which needs only sqrt and a logarithm.
 // The logarithm is a series in basic arithmetic, because the library's differs between processors.
-#include "scene/random.h"
+#include "numerics/random.h"
 
 #include "std.h"
 
