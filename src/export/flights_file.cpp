@@ -188,7 +188,7 @@ void FlightsFile::end(const Tally& tally) {
   if (file_ && in_block_ > 0) end_block(of_entries, columns_, in_block_, block_time_);
   if (!file_) return;
 
-  const bool has_end = tally.end || tally.removed.bodies + tally.appeared.bodies > 0;
+  const bool has_end = tally.end || tally.passed.removed.bodies + tally.passed.appeared.bodies > 0;
   InPlace writer(file_->room(key_size * keys_.size() + end_size + tail_size));
   for (const FlightsKey& key : keys_) {
     writer.put(key.time);
@@ -201,7 +201,7 @@ void FlightsFile::end(const Tally& tally) {
     writer.put(end.time);
     writer.put(uint32_t(end.reason));
     writer.put(end.region);
-    for (const Passage& passage : {tally.removed, tally.appeared}) {
+    for (const Passage& passage : {tally.passed.removed, tally.passed.appeared}) {
       writer.put(passage.bodies);
       writer.put(passage.energy);
       writer.put(passage.momentum);

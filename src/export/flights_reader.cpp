@@ -88,7 +88,8 @@ void FlightsReader::take_end(uint64_t place, const Scene& scene) {
   load(place, end_size);
   const auto time = take<double>();
   const auto reason = take<uint32_t>(), region = take<uint32_t>();
-  for (Passage* passage : {&tally_.removed, &tally_.appeared}) {
+
+  for (Passage* passage : {&tally_.passed.removed, &tally_.passed.appeared}) {
     passage->bodies = take<uint64_t>();
     passage->energy = take<double>();
     for (int k = 0; k < 3; ++k) passage->momentum[k] = take<double>();

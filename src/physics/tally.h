@@ -39,6 +39,14 @@ struct Passage {
   void keep(auto& archive) { archive(bodies, energy, momentum); }
 };
 
+/// Both ways.
+struct Passages {
+  Passage removed;   // by regions
+  Passage appeared;  // after the start
+
+  void keep(auto& archive) { archive(removed, appeared); }
+};
+
 /// Why a run has ended before its duration.
 enum class EndReason : uint8_t {
   rest,        // all bodies were at rest
@@ -119,8 +127,7 @@ struct Tally {
   double stepped_contact = 0;
   TakenUp taken_up;
   SharedImpacts shared;
-  Passage removed;   // by regions
-  Passage appeared;  // after the start
+  Passages passed;
   optional<RunEnd> end;  // none: the run goes on until its duration
 
   /// Counts a record. The end of bounces is not a collision.
@@ -143,7 +150,7 @@ struct Tally {
   void keep(auto& archive) {
     archive(body_body, body_fixed, merges, tautened, collapses, first_collision, last_collision, energy_lost);
     archive(method_error, work, force_work, doubts, max_overlap, fastest, resting, stepped_contact);
-    archive(taken_up, shared, removed, appeared, end);
+    archive(taken_up, shared, passed, end);
   }
 };
 

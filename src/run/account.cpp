@@ -113,15 +113,16 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.energy.end = last.total();
   summary.energy.lost = tally.energy_lost;
   summary.energy.work = tally.work;
-  summary.energy.removed = tally.removed.energy;
-  summary.energy.appeared = tally.appeared.energy;
+  summary.energy.removed = tally.passed.removed.energy;
+  summary.energy.appeared = tally.passed.appeared.energy;
   summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost +
                             summary.energy.removed - summary.energy.appeared;
   summary.energy.turnover = greatest_kinetic(scene.world, start, last, tally) +
                             std::abs(last.potential - start.potential) + std::abs(tally.energy_lost) +
-                            std::abs(tally.work) + std::abs(tally.removed.energy) + std::abs(tally.appeared.energy);
+                            std::abs(tally.work) + std::abs(tally.passed.removed.energy) +
+                            std::abs(tally.passed.appeared.energy);
 
-  const Vec3 passed = tally.removed.momentum - tally.appeared.momentum;
+  const Vec3 passed = tally.passed.removed.momentum - tally.passed.appeared.momentum;
   summary.momentum_drift = (momentum(scene.world, end) + passed - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.fastest.speed;
@@ -130,8 +131,8 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
 
   summary.contact = {tally.merges,
                      tally.tautened,
-                     tally.removed.bodies,
-                     tally.appeared.bodies,
+                     tally.passed.removed.bodies,
+                     tally.passed.appeared.bodies,
                      tally.collapses,
                      tally.taken_up,
                      tally.doubts.contact_made,

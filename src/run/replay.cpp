@@ -87,6 +87,7 @@ void Replay::take_joint(const PathPiece& piece) {
     radius_ = world_.radius;
     volume_ = world_.volume;
   }
+
   const bool out = piece.part_of != no_entity || piece.removed;
   part_of_[piece.body] = out ? piece.part_of : piece.body;
   if (!piece.joint) return;

@@ -190,6 +190,7 @@ class Bodies {
     const Placing placing{body.count, body.first, radius, *min, *max, *arrange};
     Random random(scene_.seed, body.key->text + "/position");
     const Placed placed = place(placing, world_, later ? obstacles_ : grid_, random);
+
     if (placed.centers.size() < body.count) {
       diagnostics_.add(view.place("count"),
                        fmt::format("{} of radius {} {} not fit into the box of {}",

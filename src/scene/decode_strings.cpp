@@ -93,6 +93,14 @@ class Lengths {
  private:
   void one(String& string, const View& view, const std::string& name) {
     if (string.body == no_entity) return;
+    for (const Entity end : {string.body, string.other}) {
+      if (end == no_entity || !scene_.world.comes_later(end)) continue;
+      diagnostics_.add(view.place("to"),
+                       fmt::format("{} is tied to {}, which appears at {} s", in_backticks(name),
+                                   in_backticks(scene_.roster.name(end)), shortest(scene_.world.appears[end])),
+                       "expected bodies that are there from the start");
+      return;
+    }
 
     const optional<Vec3> a = position_of(string.body);
     const optional<Vec3> b = string.other == no_entity ? string.anchor : position_of(string.other);

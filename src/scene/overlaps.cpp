@@ -120,11 +120,13 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
       singles, [&](const SingleBody& a, const SingleBody& b) { return world.radius[a.body] > world.radius[b.body]; });
   Overlaps found(scene, diagnostics);
 
+  // Bodies against those before them.
   for (const SingleBody& single : singles) {
     if (world.comes_later(single.body)) continue;
     if (const auto first = grid.find_overlap(member(single.body), rounding_of_places)) {
       const bool too_many = found.size() > max_overlaps_kept;
       vector<BodyGrid::Overlap> all{*first};
+
       if (!too_many) all = grid.all_overlaps(member(single.body), rounding_of_places);
 
       set<Entity> others;
@@ -137,6 +139,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
 
       if (too_many) continue;
     }
+
     grid.insert(member(single.body));
   }
 
@@ -156,6 +159,7 @@ void check_overlaps(const Scene& scene, vector<SingleBody> singles, BodyGrid& gr
   const auto may_leave = [&](const SingleBody& single, Entity e) {
     return world.comes_later(single.body) && world.moves(e);
   };
+
   for (const SingleBody& single : singles) {
     if (const auto overlap = obstacles.find_overlap(member(single.body), rounding_of_places)) {
       if (!may_leave(single, overlap->entity))

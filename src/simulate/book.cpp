@@ -98,6 +98,7 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       inside_(world.regions.size() * world.body_count()),
       lies_(world.body_count()),
       extremes_(options.watch.size()) {
+  // What it does not have.
   if (!world.appears.empty())
     throw SimulationError("the engine `book` has all bodies from the start: use `engine: exact`, or remove `appear`");
   if (!world.strings.empty())

@@ -103,9 +103,9 @@ class EventLog {
   void note(const SharedImpacts& now);
   void count_collapse() { ++tally_.collapses; }
   /// Books a body that leaves the world, with its energy (J) and momentum (kg m/s).
-  void remove(double energy, const Vec3& momentum) { pass(tally_.removed, removed_, energy, momentum); }
+  void remove(double energy, const Vec3& momentum) { pass(tally_.passed.removed, removed_, energy, momentum); }
   /// The same for one that comes into the world.
-  void appear(double energy, const Vec3& momentum) { pass(tally_.appeared, appeared_, energy, momentum); }
+  void appear(double energy, const Vec3& momentum) { pass(tally_.passed.appeared, appeared_, energy, momentum); }
   void end(const RunEnd& end) { tally_.end = end; }
   /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {

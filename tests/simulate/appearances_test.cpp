@@ -42,7 +42,7 @@ double unaccounted(const Problem& problem, const Outcome& run) {
     if (!problem.world.comes_later(i))
       potential -= problem.world.mass[i] * problem.world.gravity.dot(start.position[i]);
   return energy(problem, run.end) - before - potential - run.tally.work + run.tally.energy_lost +
-         run.tally.removed.energy - run.tally.appeared.energy;
+         run.tally.passed.removed.energy - run.tally.passed.appeared.energy;
 }
 
 TEST(Appearances, ABodyMovesFromThenOnAsFromTheStart) {
@@ -58,9 +58,9 @@ TEST(Appearances, ABodyMovesFromThenOnAsFromTheStart) {
   EXPECT_LT((run.end.position[0] - Vec3(0.75, 5 + 2 * 0.75 - 5 * 0.75 * 0.75, 0)).norm(), 1e-14);
 
   // Its energy is booked as it comes.
-  EXPECT_EQ(run.tally.appeared.bodies, 1u);
-  EXPECT_DOUBLE_EQ(run.tally.appeared.energy, 0.5 * 2 * 5 + 2 * 10 * 5);
-  EXPECT_EQ(run.tally.appeared.momentum, Vec3(2, 4, 0));
+  EXPECT_EQ(run.tally.passed.appeared.bodies, 1u);
+  EXPECT_DOUBLE_EQ(run.tally.passed.appeared.energy, 0.5 * 2 * 5 + 2 * 10 * 5);
+  EXPECT_EQ(run.tally.passed.appeared.momentum, Vec3(2, 4, 0));
   EXPECT_LT(std::abs(unaccounted(problem, run)), 1e-12);
 }
 
@@ -112,7 +112,7 @@ TEST(Appearances, ABlockerThatIsStruckLeavesAtItsNewTime) {
   problem.initial.velocity[2] = Vec3::Zero();
   Outcome run;
   EXPECT_TRUE(std::isnan(appearances(problem, &run)[0]));
-  EXPECT_EQ(run.tally.appeared.bodies, 0u);
+  EXPECT_EQ(run.tally.passed.appeared.bodies, 0u);
 }
 
 TEST(Appearances, AMovingThingLeavesThePlace) {
@@ -130,6 +130,7 @@ TEST(Appearances, BodiesRestWhereTheyAppearOnFloorsAndOnOneAnother) {
   problem.world.gravity = Vec3(0, -10, 0);
   for (int i = 0; i < 4; ++i)
     problem.body(Volume::box({0.4, 0.2, 0.4}), {0.02 * i, 0.1 + 0.2 * i, 0}, Vec3::Zero(), 1, 0);
+
   problem.plane({0, 0, 0}, {0, 1, 0});
   for (Entity i = 1; i < 4; ++i) appear(problem, i, 0.5 * i);
   problem.options.duration = 3;
@@ -163,6 +164,7 @@ TEST(Appearances, BallsPourOneAfterTheOtherWithoutOverlap) {
     const double t = k / 20.0;
     while (simulator->time() < t) simulator->advance_to(t);
     const State& state = simulator->state();
+
     for (Entity i = 0; i < 100; ++i) {
       EXPECT_TRUE(state.part_of[i] != i || i / 50.0 <= t + 1e-9) << i << " at " << t;
       for (Entity j = 0; j < i; ++j) {
@@ -172,7 +174,7 @@ TEST(Appearances, BallsPourOneAfterTheOtherWithoutOverlap) {
     }
   }
   Outcome run{{}, {}, simulator->state(), simulator->tally()};
-  EXPECT_EQ(run.tally.appeared.bodies, 100u);
+  EXPECT_EQ(run.tally.passed.appeared.bodies, 100u);
   EXPECT_LT(std::abs(unaccounted(problem, run) + run.tally.method_error), 1e-9);
 }
 
@@ -194,6 +196,7 @@ TEST(Appearances, OrderOfBodiesAndWhatStandsFarAwayChangeNothing) {
       const int i = reversed ? 2 - k : k;
       problem.ball({0.3 * i, 1.0 + i, 0}, {0.5, 0, 0}, 1 + i, 0.2, 0.7);
     }
+
     if (far) problem.ball({1000, 5, 0}, Vec3::Zero(), 1, 0.2);
     problem.plane({0, 0, 0}, {0, 1, 0});
     for (int k = 0; k < 3; ++k) appear(problem, Entity(reversed ? 2 - k : k), 0.3 * k);
@@ -218,6 +221,7 @@ TEST(Appearances, BodiesUnderDragComeInSteps) {
     problem.ball({0, 5, 0}, {1, 2, 0}, 1, 0.1);
     problem.ball({5, 5, 0}, {1, 2, 0}, 1, 0.1);
     if (at > 0) appear(problem, 0, at);
+
     problem.options.integrator = integrator;
     if (integrator != Integrator::dop853) problem.options.step = 0.25;
     problem.options.duration = 1 + at;
@@ -250,7 +254,7 @@ TEST(Appearances, ASnapshotGoesOnWithTheSameBits) {
     for (Simulator* each : {first.get(), second.get()})
       while (each->time() < 1.5) each->advance_to(1.5);
     EXPECT_EQ(first->state().position, second->state().position) << at;
-    EXPECT_EQ(first->tally().appeared.energy, second->tally().appeared.energy) << at;
+    EXPECT_EQ(first->tally().passed.appeared.energy, second->tally().passed.appeared.energy) << at;
   }
 }
 

@@ -97,6 +97,7 @@ TEST(Passing, TwoHeapsLieInOnePlaceAsCrowds) {
   Problem problem;
   problem.world.gravity = Vec3(0, -g_n, 0);
   Random random(3);
+
   for (int heap = 0; heap < 2; ++heap)
     for (int i = 0; i < int(balls); ++i)
       problem.ball(
@@ -106,9 +107,9 @@ TEST(Passing, TwoHeapsLieInOnePlaceAsCrowds) {
   problem.room({-0.5, 0, -0.5}, {0.5, 9, 0.5});
   problem.world.pairs = {passing(0, balls, balls, balls)};
   problem.options.duration = 3;
-  const Outcome run = run_exact(problem);
 
   // Bodies of one heap touch, those of both overlap.
+  const Outcome run = run_exact(problem);
   double own = infinity;
   double other = infinity;
   for (Entity i = 0; i < 2 * balls; ++i)
@@ -118,6 +119,7 @@ TEST(Passing, TwoHeapsLieInOnePlaceAsCrowds) {
     }
   EXPECT_GT(own, 0.2 * (1 - 1e-9));
   EXPECT_LT(other, 0.1);
+
   for (const Vec3& x : run.end.position) {
     EXPECT_LT(max(std::abs(x.x()), std::abs(x.z())), 0.4 + 1e-9);
     EXPECT_GT(x.y(), 0.1 - 1e-9);

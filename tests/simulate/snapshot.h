@@ -81,9 +81,9 @@ class BitHash {
 
   void one(const Tally& tally) {
     const auto& [body_body, body_fixed, merges, tautened, collapses, first, last, lost, method_error, work, force_work,
-                 doubts, overlap, fastest, resting, stepped, taken_up, shared, removed, appeared, end] = tally;
+                 doubts, overlap, fastest, resting, stepped, taken_up, shared, passed, end] = tally;
     add(body_body, body_fixed, merges, tautened, collapses, first, last, lost, method_error, work, force_work);
-    add(doubts, overlap, fastest, resting, stepped, taken_up, shared, removed, appeared, end.has_value());
+    add(doubts, overlap, fastest, resting, stepped, taken_up, shared, passed.removed, passed.appeared, end.has_value());
     if (!end) return;
     const auto& [time, reason, region] = *end;
     add(time, reason, region);

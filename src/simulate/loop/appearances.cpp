@@ -30,8 +30,13 @@ Vec3 place_in(const Volume& volume, Random& random) {
 }  // namespace
 
 Appearances::Appearances(ExactBodies& bodies, const State& initial)
-    : bodies_(bodies), initial_(initial), lines_(bodies.world.pours.size()) {
+    : bodies_(bodies), lines_(bodies.world.pours.size()) {
   const World& world = bodies.world;
+  if (world.appears.empty()) return;
+  x_ = initial.position;
+  v_ = initial.velocity;
+  for (Entity i = 0; i < world.impulse.size(); ++i) v_[i] += world.impulse[i] / world.mass[i];
+
   vector<uint8_t> poured(world.appears.size());
   for (size_t k = 0; k < lines_.size(); ++k) {
     const Pour& pour = world.pours[k];
@@ -135,12 +140,11 @@ optional<Appearances::Admitted> Appearances::take() {
   for (auto one = blocked_.begin(); one != blocked_.end(); ++one) {
     if (bodies_.now < due_of(*one)) continue;
     const Entity i = one->body;
-    const Vec3& x = initial_.position[i];
-    if (has_room(i, x)) {
+    if (has_room(i, x_[i])) {
       blocked_.erase(one);
-      return Admitted{i, x};
+      return Admitted{i, x_[i], v_[i]};
     }
-    *one = blocked(i, x);
+    *one = blocked(i, x_[i]);
   }
 
   for (size_t k = 0; k < lines_.size(); ++k)
@@ -164,7 +168,7 @@ optional<Appearances::Admitted> Appearances::take_of_line(size_t k) {
     if (!has_room(i, x)) continue;
     ++line.next;
     line.due = line.next < pour.count ? max(bodies_.world.appears[i + 1], now) : never;
-    return Admitted{i, x};
+    return Admitted{i, x, v_[i]};
   }
 
   do line.due = from + ++tick / pour.rate;

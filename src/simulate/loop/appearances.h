@@ -15,7 +15,6 @@ namespace carom {
 
 class Appearances {
  public:
-  /// `initial` must outlive this object.
   Appearances(ExactBodies& bodies, const State& initial);
 
   /// Whether bodies have yet to come.
@@ -25,7 +24,7 @@ class Appearances {
 
   struct Admitted {
     Entity body;
-    Vec3 x;  // m
+    Vec3 x, v;  // m, m/s
   };
   /// Finds the bodies that are due at the present instant and have room, which are then among the neighbours. Each call
   /// returns one of them; none: there is no other.
@@ -60,7 +59,7 @@ class Appearances {
   optional<Admitted> take_of_line(size_t k);
 
   ExactBodies& bodies_;
-  const State& initial_;     // its positions and velocities are those of a body as it appears
+  vector<Vec3> x_, v_;       // m and m/s, by body, as it appears; empty: none does
   vector<Entity> coming_;    // with a place of their own, not due yet: the next ones last
   vector<Blocked> blocked_;  // in the order in which they were due
   vector<Line> lines_;       // by pour

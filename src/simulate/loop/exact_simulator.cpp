@@ -29,8 +29,7 @@ unique_ptr<Simulator> make_exact_simulator(const World& world, const State& init
 }
 
 ExactSimulator::ExactSimulator(const World& world, const State& initial, const ExactOptions& options)
-    : initial_(world.appears.empty() ? State{} : initial),
-      bodies_(world, options),
+    : bodies_(world, options),
       crossings_(bodies_, [this](Entity i) { return bodies_.flight_end(i); }),
       paths_(bodies_, crossings_),
       collapses_(bodies_),
@@ -46,7 +45,7 @@ ExactSimulator::ExactSimulator(const World& world, const State& initial, const E
       merging_(bodies_, modes_, group_, flat_, flights_, paths_),
       guard_(world.body_count(), options.duration),
       impacts_(bodies_, {collapses_, flat_, group_, flights_, merging_, guard_}),
-      appearances_(bodies_, initial_),
+      appearances_(bodies_, initial),
       attends_(watches() || world.body_count() > cached_bodies) {
   start(initial);
 }
@@ -350,6 +349,7 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
   } else if (options.stop_at_rest && all_rest()) {
     end_run(bodies_.now.hi, EndReason::rest, 0);
   } else {
+    // The first of both.
     paths_.record_changes();
     const Instant sure = crossings_.first_sure();
     const Instant comes = appearances_.any() ? appearances_.next() : Instant{never, 0};
@@ -403,10 +403,8 @@ void ExactSimulator::take_appearances(const Instant& at) {
 
 /// Lets a body come into the world at present. It begins as the others did at the start.
 void ExactSimulator::admit(const Appearances::Admitted& admitted) {
-  const auto& [i, x] = admitted;
+  const auto& [i, x, v] = admitted;
   const World& world = bodies_.world;
-  Vec3 v = initial_.velocity[i];
-  if (!world.impulse.empty()) v += world.impulse[i] / world.mass[i];
 
   paths_.note_change(i);
   modes_.appear(i);

@@ -79,7 +79,6 @@ class ExactSimulator final : public Simulator {
   bool rests(Entity i) const;
   bool all_rest();
 
-  const State initial_;  // of bodies that come later, else empty
   ExactBodies bodies_;
   Crossings crossings_;
   PathLog paths_;
