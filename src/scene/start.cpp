@@ -89,9 +89,10 @@ class Starter {
 
     if (!gone_.empty())
       diagnostics_.add(place_,
-                       fmt::format("at {} s of the run {} {} gone: merged into another body, or removed by a region",
+                       fmt::format("at {} s of the run {} {} out of the world: merged into another body, removed by a "
+                                   "region, or yet to appear",
                                    time(), names_text(gone_), gone_.size() == 1 ? "is" : "are"),
-                       "expected a scene without bodies that are gone, or an earlier `at`");
+                       "expected a scene without such bodies, or another `at`");
     else if (!contains(used_, true))
       diagnostics_.add(place_, "the run has none of the bodies of this scene",
                        former_.names.empty() ? "expected a run with bodies"

@@ -20,7 +20,7 @@ string names_of(Entity a, Entity b) {
 /// The scene's own coefficient of a pair, from the rules of the scene format.
 double coefficient(const World& world, Entity a, Entity b) {
   for (auto p = world.pairs.rbegin(); p != world.pairs.rend(); ++p)
-    if ((p->a_first == a && p->b_first == b) || (p->a_first == b && p->b_first == a)) return p->value;
+    if ((p->a_first == a && p->b_first == b) || (p->a_first == b && p->b_first == a)) return p->value.value_or(0);
 
   const double e1 = world.restitution[a], m1 = world.mass[a];
   // A fixed thing without a coefficient of its own has the body's.
