@@ -232,10 +232,10 @@ TEST(Tables, TheSummaryIsOneRow) {
       "run,title,engine,status,duration_s,bodies,collisions,body_body,body_fixed,first_collision_s,"
       "last_collision_s,energy_start_J,energy_end_J,energy_lost_J,work_J,energy_residual_J,"
       "momentum_drift_kg_m_per_s,max_overlap_m,max_speed_m_per_s,resting,frames,stepped_contact_s,removed_J,ended_by,"
-      "energy_absorbed_J,contact_made_J\n"
+      "energy_absorbed_J,contact_made_J,appeared_J\n"
       "r\xEF\xBF\xBD"
       "1,\"'=cmd|' /C calc'!A0, \"\"quoted\"\"\",exact,done,0.2,4,3,2,1,,0.125,51,50,1,0,-1e-17,2,3e-17,4,5,"
-      "18446744073709551615,0.75,0.5,region pocket,0.25,0.125\n");
+      "18446744073709551615,0.75,0.5,region pocket,0.25,0.125,0\n");
 }
 
 TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {

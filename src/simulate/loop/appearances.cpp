@@ -13,6 +13,8 @@ namespace carom {
 
 namespace {
 
+/// A share of a body's radius: a thing that overlaps it by less has left its place.
+constexpr double exit_rounding = 0x1p-40;
 /// Places that a ball of a pour tries at one tick.
 constexpr int tries_of_tick = 100;
 
@@ -100,7 +102,7 @@ Instant Appearances::exit_of(Entity e, Entity i, const Vec3& x) const {
   Instant at = bodies_.now;
   while (at < end) {
     const double depth = overlap(i, x, e, at);
-    if (depth <= 0) return at;
+    if (depth <= exit_rounding * bodies_.world.radius[i]) return at;
     const Flight f = body ? bodies_.flights[e] : Flight{};
     const double speed = body ? f.velocity(at - f.start).norm() : bodies_.fixed_velocity(e, at).norm();
     const double acceleration = body ? f.greatest_acceleration() : 0;
