@@ -316,6 +316,10 @@ class Checker : ValueChecker {
         return color(value, name, ColorWords::colors_and_none);
       case Type::color_or_part:
         return is_map ? part(value, field, key, partial) : color(value, name);
+      case Type::number_or_part:
+        if (is_map) return part(value, field, key, partial);
+        number(value, field, name, limited_range(field));
+        return;
       case Type::name:
         if (!is_scalar) wrong_type(value, name, required);
         return;

@@ -49,7 +49,9 @@ class Bodies {
     string_view last_family;
     for (const BodyEntry& body : inventory_.bodies) {
       const View &view = body.view, &each = body.each;
-      const auto keys = filled<BodyKeys>(each);
+      auto keys = filled<BodyKeys>(each);
+      const optional<RadiiKeys> radii = radii_of(each);
+      if (radii) keys.radius = radii->to;
       const optional<Form> form = forms_.of(keys, keys.color.has_value());
 
       const string_view family = family_of(body.key->text);
@@ -64,12 +66,13 @@ class Bodies {
       const optional<double> mass = form ? mass_of(keys, form->volume, each) : nullopt;
       if (!mass) continue;
       common(keys, *mass, form->volume, body);
+      if (radii) draw_radii(*radii, keys, body);
 
       if (!body.group) single(body.first, keys, view.place("position"));
       if (body.group && view.given("members") != nullptr)
         members(body, keys.velocity);
       else if (body.group && body.count > 0)
-        groups_.push_back(&body);
+        groups_.push_back({form->volume.reach(), &body});
     }
 
     if (diagnostics_.empty()) {
@@ -117,6 +120,32 @@ class Bodies {
     fill(world_.impulse, body.impulse);
   }
 
+  /// The range of the radii of a group's balls. None: they have one radius, or an error was reported.
+  optional<RadiiKeys> radii_of(const View& ball) {
+    const Field* field = find_field(ball.kind(), "radius");
+    const Node* node = field == nullptr || field->held == nullptr ? nullptr : ball.find(*field);
+    if (node == nullptr || !node->is_map()) return nullopt;
+    const auto radii = filled<RadiiKeys>(ball.part(*field));
+    if (!radii.from || !radii.to) return nullopt;
+    if (*radii.from <= *radii.to) return radii;
+    diagnostics_.add(place_of(*node->find("to")),
+                     fmt::format("the radii go from {} to {}", shortest(*radii.from), shortest(*radii.to)),
+                     "expected `from` below `to`");
+    return nullopt;
+  }
+
+  /// Each ball has a radius of its own, and the mass that `density` makes of it.
+  void draw_radii(const RadiiKeys& radii, const BodyKeys& keys, const BodyEntry& entry) {
+    Random random(scene_.seed, entry.key->text + "/radius");
+    for (Entity i = entry.first; i < entry.first + entry.count; ++i) {
+      const double radius = *radii.from + random.uniform() * (*radii.to - *radii.from);
+      const Volume volume = Volume::sphere(radius);
+      world_.radius[i] = radius;
+      if (!world_.volume.empty()) world_.volume[i] = volume;
+      if (!keys.mass) world_.mass[i] = *keys.density * volume.size();
+    }
+  }
+
   void single(Entity body, const BodyKeys& keys, Place place) {
     if (!keys.position || !keys.velocity) return;
     scene_.initial.position[body] = *keys.position;
@@ -151,46 +180,75 @@ class Bodies {
   /// Groups with large members first, which makes the grid's searches cheap.
   /// The order inside a group and its random stream do not depend on that.
   void groups() {
-    ranges::stable_sort(groups_, [&](const BodyEntry* a, const BodyEntry* b) {
-      return world_.radius[a->first] > world_.radius[b->first];
-    });
-    for (const BodyEntry* body : groups_) one_group(*body);
+    ranges::stable_sort(groups_, [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (const auto& [largest, body] : groups_) one_group(*body);
   }
 
   void one_group(const BodyEntry& body) {
     const View& view = body.view;
     const auto group = filled<GroupKeys>(view);
-    const auto& [min, max] = group.in;
-    const optional<Arrange> arrange = group.arrange;
-    if (!min || !max || !arrange) return;
-
-    const double radius = world_.radius[body.first];
-    if (!((*max - *min) * 2).allFinite() || !((*max - *min).array() > 0).all()) {
-      diagnostics_.add(view.part("in").place("max"),
-                       fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
-                       "expected min below max on every axis");
-      return;
-    }
+    optional<Placing> placing = space_of(body, group.in);
+    if (!placing || !group.arrange) return;
 
     // Find the places.
-    const Placing placing{body.count, body.first, radius, *min, *max, *arrange};
+    placing->count = body.count;
+    placing->first = body.first;
+    placing->radii = span(world_.radius).subspan(body.first, body.count);
+    placing->arrange = *group.arrange;
     Random random(scene_.seed, body.key->text + "/position");
-    const Placed placed = place(placing, world_, grid_, random);
-    if (placed.centers.size() < body.count) {
-      diagnostics_.add(view.place("count"),
-                       fmt::format("{} of radius {} {} not fit into the box of {}",
-                                   body.count == 1 ? "1 ball" : fmt::format("{} balls", body.count), shortest(radius),
-                                   body.count == 1 ? "does" : "do", in_backticks(body.key->text)),
-                       fmt::format("{} would fit{}", placed.fit,
-                                   arrange == Arrange::lattice     ? " as a lattice; `arrange: hexagonal` packs closer"
-                                   : arrange == Arrange::hexagonal ? ""
-                                                                   : ", close-packed"));
-      return;
-    }
+    const Placed placed = place(*placing, world_, grid_, random);
+    if (placed.centers.size() < body.count) return refuse_count(body, *placing, placed.fit);
 
     ranges::copy(placed.centers, scene_.initial.position.begin() + body.first);
-    for (Entity i = 0; i < body.count; ++i) grid_.insert({placed.centers[i], radius, body.first + i});
+    for (Entity i = 0; i < body.count; ++i)
+      grid_.insert({placed.centers[i], world_.radius[body.first + i], body.first + i});
     set_velocities(body, group);
+  }
+
+  /// The space of a group's balls, without the balls. None: it has an error.
+  optional<Placing> space_of(const BodyEntry& body, const SpaceKeys& in) {
+    Placing placing;
+    if (in.radius || in.cylinder) {
+      if (in.cylinder && (!in.cylinder->radius || !in.cylinder->height)) return nullopt;
+      placing.space =
+          in.radius ? Volume::sphere(*in.radius) : Volume::cylinder(*in.cylinder->radius, *in.cylinder->height);
+      placing.center = in.position;
+      placing.min = in.position - placing.space.half;
+      placing.max = in.position + placing.space.half;
+      return placing;
+    }
+
+    if (!in.min || !in.max) return nullopt;
+    placing.min = *in.min;
+    placing.max = *in.max;
+    const Vec3 edges = placing.max - placing.min;
+    placing.space = Volume::box(edges);
+    placing.center = placing.min + placing.space.half;
+    if ((edges * 2).allFinite() && (edges.array() > 0).all()) return placing;
+    diagnostics_.add(body.view.part("in").place("max"),
+                     fmt::format("the box of {} has no volume", in_backticks(body.key->text)),
+                     "expected min below max on every axis");
+    return nullopt;
+  }
+
+  /// `fit`: the number that has room.
+  void refuse_count(const BodyEntry& body, const Placing& placing, uint64_t fit) {
+    const auto [least, greatest] = ranges::minmax(placing.radii);
+    const bool alike = least == greatest;
+    const string radii =
+        alike ? fmt::format("radius {}", shortest(least)) : fmt::format("radii up to {}", shortest(greatest));
+    const char* space = placing.space.shape == Shape::sphere     ? "ball"
+                        : placing.space.shape == Shape::cylinder ? "cylinder"
+                                                                 : "box";
+    const char* arranged = placing.arrange == Arrange::lattice ? " as a lattice; `arrange: hexagonal` packs closer"
+                           : placing.arrange == Arrange::hexagonal || placing.space.shape != Shape::box
+                               ? ""
+                               : ", close-packed";
+    diagnostics_.add(body.view.place("count"),
+                     fmt::format("{} of {} {} not fit into the {} of {}",
+                                 body.count == 1 ? "1 ball" : fmt::format("{} balls", body.count), radii,
+                                 body.count == 1 ? "does" : "do", space, in_backticks(body.key->text)),
+                     fmt::format("{} {}would fit{}", fit, alike ? "" : "of the largest ", arranged));
   }
 
   void set_velocities(const BodyEntry& body, const GroupKeys& group) {
@@ -214,7 +272,7 @@ class Bodies {
   Diagnostics& diagnostics_;
   vector<SingleBody> singles_;  // those without errors, by number
   /// Those with members and without errors in their balls.
-  vector<const BodyEntry*> groups_;
+  vector<pair<double, const BodyEntry*>> groups_;  // by the largest radius (m)
   BodyGrid grid_;
   double default_restitution_ = 1;
 };

@@ -8,23 +8,24 @@
 namespace carom {
 
 enum class Type : uint8_t {
-  number,         // finite
-  whole,          // >= 0
-  flag,           // true or false
-  text,           // one line
-  text_or_flag,   // one line, true or false
-  choice,         // one of Field::of, separated by |
-  vector,         // [x, y, z], numbers
-  direction,      // [x, y, z], not all zero; any length
-  extent,         // [width, height], numbers in range
-  pixels,         // [width, height], wholes in range, or one of Field::of, separated by |
-  color,          // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
-  color_or_none,  // a colour, or the word none
-  color_or_part,  // a colour, or a map of kind Field::of
-  file,           // path, from the scene file's folder
-  name,           // of a body or a fixed thing
-  point_or_name,  // [x, y, z], numbers in range, or the name of a body
-  two_names,      // [name, name] of bodies or fixed things
+  number,          // finite
+  whole,           // >= 0
+  flag,            // true or false
+  text,            // one line
+  text_or_flag,    // one line, true or false
+  choice,          // one of Field::of, separated by |
+  vector,          // [x, y, z], numbers
+  direction,       // [x, y, z], not all zero; any length
+  extent,          // [width, height], numbers in range
+  pixels,          // [width, height], wholes in range, or one of Field::of, separated by |
+  color,           // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
+  color_or_none,   // a colour, or the word none
+  color_or_part,   // a colour, or a map of kind Field::of
+  number_or_part,  // a finite number, or a map of kind Field::of
+  file,            // path, from the scene file's folder
+  name,            // of a body or a fixed thing
+  point_or_name,   // [x, y, z], numbers in range, or the name of a body
+  two_names,       // [name, name] of bodies or fixed things
   /// A list of names, at least one. If Field::of is given, they are from it, separated by |.
   names,
   part,  // a map of kind Field::of
@@ -72,6 +73,7 @@ struct TypeFacts {
   Inside inside = Inside::nothing;
   string_view components = {};  // separated by |
   string_view other_form = {};  // where the row has `plain`, and of names with Field::of
+  bool or_value = false;        // a single value may stand in place of the map
 };
 const TypeFacts& facts_of(Type type);
 

@@ -118,7 +118,14 @@ constexpr Field cylinder_fields[] = {
     row<CylinderKeys, &CylinderKeys::height>("height", "Height, along y.", "1", {.unit = "m", .range = above_0, .needed = true}),
 };
 
-constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
+constexpr Field radius_or_radii = row<BodyKeys, &BodyKeys::radius>("radius", "Radius. A map: each ball has its own, uniform by the seed; with `density` also its own mass.", "{from: 0.02, to: 0.05}", {.type = Type::number_or_part, .unit = "m", .range = above_0, .of = "radii", .needed = true});
+
+constexpr Field radii_fields[] = {
+    row<RadiiKeys, &RadiiKeys::from>("from", "The least radius.", "0.02", {.unit = "m", .range = above_0, .needed = true, .title = "Least radius"}),
+    row<RadiiKeys, &RadiiKeys::to>("to", "The greatest radius, which none reaches.", "0.05", {.unit = "m", .range = above_0, .needed = true, .title = "Greatest radius"}),
+};
+
+constexpr Field member_fields[] = {mass, density, radius_or_radii, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
 
 constexpr Field placed_fields[] = {
     row<PlacedKeys, &PlacedKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true}),
@@ -133,8 +140,8 @@ constexpr Field start_fields[] = {
 constexpr Field group_fields[] = {
     row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .needed = true}),
     row("ball", "A ball of the group, without position. Not needed where defaults.ball has all of it.", "{mass: 1, radius: 0.1}", {.type = Type::part, .of = "member", .needed = true}),
-    row<GroupKeys, &GroupKeys::in>("in", "The box that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members", .needed = true, .title = "Box of the balls"}),
-    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members"}),
+    row<GroupKeys, &GroupKeys::in>("in", "The box, ball or cylinder that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members", .needed = true, .title = "Space of the balls"}),
+    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the space; hexagonal: close-packed layers, spread as far as the space allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members"}),
     row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members"}),
     row<GroupKeys, &GroupKeys::velocity>("velocity", "Velocity of every ball at time 0.", "[0, -1, 0]", {.unit = "m/s", .one_of = "speed|velocity|members"}),
     row("members", "Each ball's position and velocity, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity", .title = "Balls one by one"}),
@@ -142,8 +149,11 @@ constexpr Field group_fields[] = {
 };
 
 constexpr Field in_fields[] = {
-    row<BoxKeys, &BoxKeys::min>("min", "Lowest corner.", "[-2, 2, -2]", {.unit = "m", .needed = true, .title = "Lowest corner"}),
-    row<BoxKeys, &BoxKeys::max>("max", "Highest corner.", "[2, 4, 2]", {.unit = "m", .needed = true, .title = "Highest corner"}),
+    row<SpaceKeys, &SpaceKeys::min>("min", "Lowest corner of a box.", "[-2, 2, -2]", {.unit = "m", .one_of = "min|radius|cylinder|position", .needed = true, .title = "Lowest corner", .with = "max"}),
+    row<SpaceKeys, &SpaceKeys::max>("max", "Highest corner of a box.", "[2, 4, 2]", {.unit = "m", .one_of = "max|radius|cylinder|position", .title = "Highest corner", .with = "min"}),
+    row<SpaceKeys, &SpaceKeys::radius>("radius", "Radius of a ball of space.", "2", {.unit = "m", .range = above_0, .one_of = "radius|cylinder|min|max"}),
+    row<SpaceKeys, &SpaceKeys::cylinder>("cylinder", "An upright cylinder, its axis along y.", "{radius: 1, height: 3}", {.of = "cylinder", .one_of = "cylinder|radius|min|max"}),
+    row<SpaceKeys, &SpaceKeys::position>("position", "Centre of the ball or the cylinder.", "[0, 3, 0]", {.unit = "m", .one_of = "position|min|max", .spared_by = "cylinder", .with = "radius"}),
 };
 
 template <typename Keys> constexpr Field fixed_restitution = row<Keys, &Keys::restitution>("restitution", "Coefficient of restitution. Default: the moving body's.", "0.5", {.range = from_0});
@@ -325,7 +335,8 @@ constexpr Kind kinds_of_scenes[] = {
     {"member", "a", "The ball of a group.", member_fields, nullptr, "ball"},
     {"group", "a", "Many balls made by rule, without overlap, the same on every machine.", group_fields, nullptr,
      "group"},
-    {"in", "", "An axis-aligned box.", in_fields},
+    {"in", "", "An axis-aligned box, a ball or an upright cylinder.", in_fields},
+    {"radii", "", "A range of radii.", radii_fields},
     {"placed", "a", "The position and velocity of one of a group's balls.", placed_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},

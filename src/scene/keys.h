@@ -52,6 +52,18 @@ struct BoxKeys {
   optional<Vec3> min, max;  // m
 };
 
+/// Where the balls of a group lie: a box, a ball or a cylinder.
+struct SpaceKeys : BoxKeys {
+  optional<double> radius;  // m
+  optional<CylinderKeys> cylinder;
+  Vec3 position = Vec3(0, 0, 0);  // m, of a ball or a cylinder
+};
+
+/// The radii of a group's balls, each drawn by the seed.
+struct RadiiKeys {
+  optional<double> from, to;  // m
+};
+
 enum class Arrange : uint8_t { random, lattice, hexagonal };
 
 /// A ball of a group that lists its balls.
@@ -68,7 +80,7 @@ struct StartKeys {
 
 struct GroupKeys {
   uint64_t count = 0;
-  BoxKeys in;
+  SpaceKeys in;
   optional<Arrange> arrange = Arrange::random;
   optional<double> speed;   // m/s, standard deviation of a component
   optional<Vec3> velocity;  // m/s; none: that of the group's ball

@@ -105,7 +105,7 @@ struct SceneFile::Impl {
     const string folder = folder_of(path);
     Scene scene;
 
-    scene.made_from.expressions = expand(tree, options.budget, diagnostics);
+    scene.made_from.expressions = expand(tree, options.seed, options.budget, diagnostics);
     check_scene(tree, folder, diagnostics);
     apply_start(tree, folder, options, scene.made_from, diagnostics);
 

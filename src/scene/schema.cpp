@@ -208,6 +208,8 @@ Json value_schema(const Field& field) {
       return either(reference("color"), cancelled());
     case Type::color_or_part:
       return either(reference("color"), reference(field.of));
+    case Type::number_or_part:
+      return either(number_schema(limited_range(field)), reference(field.of));
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:

@@ -197,6 +197,8 @@ groups:
   gas: {in: {min: [0, 1, 0], max: [2, 2, 2]}, arrange: lattice, speed: 1, count: 3}
   air: {in: {min: [0, 3, 0], max: [2, 4, 2]}, velocity: [1, 0, 0],
         ball: {density: 2, radius: 0.1, velocity: [0, 1, 0], restitution: 1, impulse: [0, 0, 1], color: red, mesh: box.stl}}
+  sand: {in: {cylinder: {radius: 1, height: 2}, position: [5, 12, 0]}, ball: {mass: 1, radius: {from: 0.05, to: 0.1}}}
+  fog: {in: {radius: 2, position: [12, 12, 0]}}
 planes: {floor: {point: [0, 0, 0], restitution: 1, color: tan, visible: true}}
 walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], restitution: 1, color: tan, visible: true}}
 obstacles: {post: {color: tan}}
