@@ -14,6 +14,7 @@
 #include "scene/member.h"
 #include "scene/overlaps.h"
 #include "scene/placement.h"
+#include "scene/push.h"
 #include "scene/random.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -70,7 +71,7 @@ class Bodies {
 
       if (!body.group) single(body.first, keys, view.place("position"));
       if (body.group && view.given("members") != nullptr)
-        members(body, keys.velocity);
+        members(body, keys);
       else if (body.group && body.count > 0)
         groups_.push_back({form->volume.reach(), &body});
     }
@@ -82,6 +83,7 @@ class Bodies {
 
     // Groups are placed when all single bodies are in the grid.
     grid_.reserve(n);
+    if (diagnostics_.empty() && !push()) return;
     check_overlaps(scene_, singles_, grid_, diagnostics_);
     groups();
   }
@@ -138,12 +140,17 @@ class Bodies {
   void draw_radii(const RadiiKeys& radii, const BodyKeys& keys, const BodyEntry& entry) {
     Random random(scene_.seed, entry.key->text + "/radius");
     for (Entity i = entry.first; i < entry.first + entry.count; ++i) {
-      const double radius = *radii.from + random.uniform() * (*radii.to - *radii.from);
-      const Volume volume = Volume::sphere(radius);
-      world_.radius[i] = radius;
-      if (!world_.volume.empty()) world_.volume[i] = volume;
-      if (!keys.mass) world_.mass[i] = *keys.density * volume.size();
+      const double share = random.uniform();
+      set_radius(i, *radii.from + share * (*radii.to - *radii.from), keys);
     }
+  }
+
+  /// Gives a ball a radius of its own, and the mass that the density makes of it.
+  void set_radius(Entity ball, double radius, const BodyKeys& keys) {
+    const Volume volume = Volume::sphere(radius);
+    world_.radius[ball] = radius;
+    if (!world_.volume.empty()) world_.volume[ball] = volume;
+    if (!keys.mass && keys.density) world_.mass[ball] = *keys.density * volume.size();
   }
 
   void single(Entity body, const BodyKeys& keys, Place place) {
@@ -153,8 +160,8 @@ class Bodies {
     singles_.push_back({body, place});
   }
 
-  /// Places the balls of a group that lists them. `velocity`: of balls without one, in m/s.
-  void members(const BodyEntry& body, const optional<Vec3>& velocity) {
+  /// Places the balls of a group that lists them. `common`: of what a ball does not have for itself.
+  void members(const BodyEntry& body, const BodyKeys& common) {
     const Node& list = *body.view.given("members");
     if (!list.is_sequence()) return;
 
@@ -172,9 +179,54 @@ class Bodies {
       BodyKeys keys;
       const auto placed = filled<PlacedKeys>(entry);
       keys.position = placed.position;
-      keys.velocity = entry.given("velocity") == nullptr ? velocity : placed.velocity;
+      keys.velocity = entry.given("velocity") == nullptr ? common.velocity : placed.velocity;
       single(body.first + i, keys, entry.place("position"));
+      if (placed.radius) set_radius(body.first + i, *placed.radius, common);
+      if (placed.mass) world_.mass[body.first + i] = *placed.mass;
     }
+    if (filled<GroupKeys>(body.view).overlap == OverlapRule::push) pushed_.push_back(&body);
+  }
+
+  /// Moves balls apart where their groups ask for it, and says how far. False: there is no room, an error was added.
+  bool push() {
+    vector<Entity> movable, others;
+    for (const BodyEntry* group : pushed_)
+      for (Entity i = 0; i < group->count; ++i) movable.push_back(group->first + i);
+    if (movable.empty()) return true;
+    ranges::sort(movable);
+    for (const SingleBody& each : singles_)
+      if (!ranges::binary_search(movable, each.body)) others.push_back(each.body);
+
+    const vector<Vec3> before = scene_.initial.position;
+    const optional<PushedPair> left = push_apart(world_, movable, others, scene_.initial.position);
+    if (left) refuse_push(*left);
+    for (const BodyEntry* group : pushed_)
+      if (!left) note_push(*group, before);
+    return !left;
+  }
+
+  void refuse_push(const PushedPair& pair) {
+    const auto found = ranges::lower_bound(singles_, pair.ball, {}, &SingleBody::body);
+    diagnostics_.add(found->position,
+                     fmt::format("{} and {} cannot be pushed apart: they still overlap by {:.3g} m",
+                                 in_backticks(scene_.roster.name(pair.ball)),
+                                 in_backticks(scene_.roster.name(pair.other)), pair.depth),
+                     "expected room between what `overlap: push` moves apart, or smaller radii");
+  }
+
+  void note_push(const BodyEntry& group, const vector<Vec3>& before) {
+    uint64_t count = 0;
+    Entity furthest = group.first;
+    double distance = 0;
+    for (Entity i = group.first; i < group.first + group.count; ++i) {
+      const double moved = (scene_.initial.position[i] - before[i]).norm();
+      if (moved > 0) ++count;
+      if (moved > distance) distance = moved, furthest = i;
+    }
+    if (count == 0) return;
+    scene_.made_from.notes.push_back(fmt::format("overlap: push moved {} of {}, the furthest by {:.3g} m: {}",
+                                                 how_many(count, "ball", "balls"), group.key->text, distance,
+                                                 scene_.roster.name(furthest)));
   }
 
   /// Groups with large members first, which makes the grid's searches cheap.
@@ -237,6 +289,8 @@ class Bodies {
     const bool alike = least == greatest;
     const string radii =
         alike ? fmt::format("radius {}", shortest(least)) : fmt::format("radii up to {}", shortest(greatest));
+
+    // The words for the space, and for the arrangement that has most room.
     const char* space = placing.space.shape == Shape::sphere     ? "ball"
                         : placing.space.shape == Shape::cylinder ? "cylinder"
                                                                  : "box";
@@ -270,7 +324,8 @@ class Bodies {
   Scene& scene_;
   World& world_;
   Diagnostics& diagnostics_;
-  vector<SingleBody> singles_;  // those without errors, by number
+  vector<SingleBody> singles_;       // those without errors, by number
+  vector<const BodyEntry*> pushed_;  // groups with `overlap: push`
   /// Those with members and without errors in their balls.
   vector<pair<double, const BodyEntry*>> groups_;  // by the largest radius (m)
   BodyGrid grid_;

@@ -111,6 +111,7 @@ class Expander {
       if (holds_map(field)) map(node, *field.held, path);
       return;
     }
+    if (field.type == Type::file_or_part) return;
     scalar(node, path);
     if (!node.is_sequence()) return;
     for (size_t i = 0; i < node.items.size(); ++i)

@@ -23,6 +23,7 @@ enum class Type : uint8_t {
   color_or_part,   // a colour, or a map of kind Field::of
   number_or_part,  // a finite number, or a map of kind Field::of
   file,            // path, from the scene file's folder
+  file_or_part,    // a path, or a map of kind Field::of
   name,            // of a body or a fixed thing
   point_or_name,   // [x, y, z], numbers in range, or the name of a body
   two_names,       // [name, name] of bodies or fixed things

@@ -25,6 +25,7 @@ constexpr TypeFacts all_types[] = {
     {Type::color_or_part, "a colour (a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1), or a map of keys", Inside::map, "", "", true},
     {Type::number_or_part, "a number{limits}{unit}, or a map of keys", Inside::map, "", "", true},
     {Type::file, "the path of a file, relative to the folder of the scene", Inside::text},
+    {Type::file_or_part, "the path of a file, relative to the folder of the scene, or a map of keys", Inside::map, "", "", true},
     {Type::name, "a name"},
     {Type::point_or_name, "[x, y, z], three numbers{limits}{unit}, or a name", Inside::numbers, axes},
     {Type::two_names, "[name, name]"},

@@ -87,7 +87,7 @@ constexpr Field ball_restitution = row<BodyKeys, &BodyKeys::restitution>("restit
 constexpr Field impulse = row_if_given<BodyKeys, &BodyKeys::impulse>("impulse", "Impulse at time 0.", "[-20, 0, 0]", {.unit = "N s"});
 constexpr Field body_color_field = row_if_given<BodyKeys, &BodyKeys::color>("color", "Colour in pictures, or colours by a quantity. Default: those of the mesh file, or one is chosen.", "crimson", {.of = "coloring", .drawn = true});
 template <typename Keys> constexpr Field color = row_if_given<Keys, &Keys::color>("color", "Colour in pictures. Default: one is chosen.", "crimson", {.drawn = true});
-constexpr Field mesh = row<BodyKeys, &BodyKeys::mesh>("mesh", "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", "meshes/duck.obj", {.type = Type::file, .drawn = true});
+constexpr Field mesh = row<BodyKeys, &BodyKeys::mesh>("mesh", "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", "meshes/duck.obj", {.type = Type::file_or_part, .of = "mesh", .drawn = true});
 constexpr Field ball_position = row<BodyKeys, &BodyKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true});
 
 // The members of a repeated thing replace it before its map is checked and decoded (expand.h).
@@ -106,7 +106,14 @@ template <typename Keys> constexpr Field radius_of = row<Keys, &Keys::radius>("r
 template <typename Keys> constexpr Field cylinder = row<Keys, &Keys::cylinder>("cylinder", "An upright cylinder, its axis along y.", "{radius: 0.1, height: 1}", {.of = "cylinder", .one_of = volumes});
 template <typename Keys> constexpr Field box = row<Keys, &Keys::box>("box", "An axis-aligned box: its full edge lengths.", "[0.4, 0.3, 0.4]", {.unit = "m", .range = above_0, .one_of = volumes});
 template <typename Keys> constexpr Field fit = row<Keys, &Keys::fit>("fit", "The tightest such volume around the mesh; position is its centre.", "box", {.of = "sphere|cylinder|box", .one_of = volumes, .with = "mesh"});
-template <typename Keys> constexpr Field mesh_of = row<Keys, &Keys::mesh>("mesh", "Mesh file: in its own size with `fit`, else drawn scaled into the volume. Without `color` it has the colours and textures of the file.", "meshes/pin.obj", {.type = Type::file, .drawn = true});
+template <typename Keys> constexpr Field mesh_of = row<Keys, &Keys::mesh>("mesh", "Mesh file: in its own size with `fit`, else drawn scaled into the volume. Without `color` it has the colours and textures of the file.", "meshes/pin.obj", {.type = Type::file_or_part, .of = "mesh", .drawn = true});
+
+constexpr Field mesh_fields[] = {
+    row<MeshKeys, &MeshKeys::file>("file", "Mesh file.", "meshes/part.stl", {.type = Type::file, .needed = true}),
+    row<MeshKeys, &MeshKeys::scale>("scale", "Size of the file's unit with `fit`: 0.001 for mm. A volume that is given has its own size.", "0.001", {.unit = "m", .range = above_0, .title = "Size of the file's unit"}),
+    row<MeshKeys, &MeshKeys::up>("up", "The axis of the file that is up in the world.", "z", {.of = "x|y|z", .title = "Axis that is up"}),
+    row<MeshKeys, &MeshKeys::turn>("turn", "Angles by which the mesh is turned about x, then y, then z of the world, after `up`.", "[30, 0, 0]", {.unit = "degrees", .range = {-360, 360}, .title = "Turn"}),
+};
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
@@ -130,6 +137,8 @@ constexpr Field member_fields[] = {mass, density, radius_or_radii, ball_velocity
 constexpr Field placed_fields[] = {
     row<PlacedKeys, &PlacedKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true}),
     row_if_given<PlacedKeys, &PlacedKeys::velocity>("velocity", "Velocity at time 0. Default: that of the group's ball.", "[2, 0, 0]", {.unit = "m/s"}),
+    row<PlacedKeys, &PlacedKeys::radius>("radius", "Radius. Default: that of the group's ball.", "0.11", {.unit = "m", .range = above_0}),
+    row<PlacedKeys, &PlacedKeys::mass>("mass", "Mass. Default: that of the group's ball, or by its density.", "10", {.unit = "kg", .range = above_0}),
 };
 
 constexpr Field start_fields[] = {
@@ -138,13 +147,15 @@ constexpr Field start_fields[] = {
 };
 
 constexpr Field group_fields[] = {
-    row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .needed = true}),
-    row("ball", "A ball of the group, without position. Not needed where defaults.ball has all of it.", "{mass: 1, radius: 0.1}", {.type = Type::part, .of = "member", .needed = true}),
-    row<GroupKeys, &GroupKeys::in>("in", "The box, ball or cylinder that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members", .needed = true, .title = "Space of the balls"}),
-    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the space; hexagonal: close-packed layers, spread as far as the space allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members"}),
-    row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members"}),
+    row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .one_of = "count|table", .needed = true}),
+    row("ball", "A ball of the group, without position. Not needed where defaults.ball has all of it.", "{mass: 1, radius: 0.1}", {.type = Type::part, .of = "member", .needed = true, .spared_by = "table"}),
+    row<GroupKeys, &GroupKeys::table>("table", "A CSV file with a line for each ball, in place of `count` and `in`. Columns x_m, y_m, z_m, and where present vx_m_per_s, vy_m_per_s, vz_m_per_s, radius_m, mass_kg, which override the ball's; other columns are ignored.", "packing.csv", {.type = Type::file, .one_of = "table|count|in|arrange|speed|members", .title = "Table of the balls"}),
+    row_if_given<GroupKeys, &GroupKeys::overlap>("overlap", "What happens to balls that overlap something at time 0. push: they are moved apart, if by less than 1/1000 of the smaller radius. Default: refuse.", "push", {.of = "refuse|push", .title = "Overlap at time 0"}),
+    row<GroupKeys, &GroupKeys::in>("in", "The box, ball or cylinder that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members|table", .needed = true, .title = "Space of the balls"}),
+    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the space; hexagonal: close-packed layers, spread as far as the space allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members|table"}),
+    row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members|table"}),
     row<GroupKeys, &GroupKeys::velocity>("velocity", "Velocity of every ball at time 0.", "[0, -1, 0]", {.unit = "m/s", .one_of = "speed|velocity|members"}),
-    row("members", "Each ball's position and velocity, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity", .title = "Balls one by one"}),
+    row("members", "Each ball's position, and what it has for itself, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity|table", .title = "Balls one by one"}),
     repeat,
 };
 
@@ -337,7 +348,8 @@ constexpr Kind kinds_of_scenes[] = {
      "group"},
     {"in", "", "An axis-aligned box, a ball or an upright cylinder.", in_fields},
     {"radii", "", "A range of radii.", radii_fields},
-    {"placed", "a", "The position and velocity of one of a group's balls.", placed_fields},
+    {"mesh", "", "A mesh file with units and axes of its own.", mesh_fields},
+    {"placed", "a", "One of a group's balls: its position, and what it has for itself.", placed_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},

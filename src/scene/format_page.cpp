@@ -55,6 +55,7 @@ string value_text(const Field& field) {
     case Type::part_or_flag:
       return "`true`, `false` or a map: " + link;
     case Type::color_or_part:
+    case Type::file_or_part:
     case Type::number_or_part: {
       const string text = expected(field);
       return text.substr(0, text.rfind(',')) + " or a map: " + link;

@@ -22,13 +22,21 @@ struct CylinderKeys {
   optional<double> height;  // m, along y
 };
 
+/// A mesh file, and how it is turned and scaled.
+struct MeshKeys {
+  const Node* file = nullptr;
+  double scale = 1;  // m per unit of the file
+  optional<UpAxis> up = UpAxis::y;
+  Vec3 turn = Vec3(0, 0, 0);  // degrees about x, then y, then z
+};
+
 /// A volume is one of the first four. A mesh is drawn in its place, or `fit` is the volume around the mesh.
 struct VolumeKeys {
   optional<double> radius;  // m
   optional<CylinderKeys> cylinder;
   optional<Vec3> box;  // m, full edge lengths
   optional<Shape> fit;
-  const Node* mesh = nullptr;  // a file
+  const Node* mesh = nullptr;  // a file, or a map of MeshKeys
 };
 
 /// A colour, or the rule that makes one from a quantity.
@@ -70,6 +78,8 @@ enum class Arrange : uint8_t { random, lattice, hexagonal };
 struct PlacedKeys {
   optional<Vec3> position;  // m
   optional<Vec3> velocity;  // m/s; none: that of the group's ball
+  optional<double> radius;  // m; none: that of the group's ball
+  optional<double> mass;    // kg; none: that of the group's ball, or by its density
 };
 
 /// The former run from which bodies begin.
@@ -78,12 +88,17 @@ struct StartKeys {
   optional<double> at;   // s of that run; none: its end
 };
 
+/// What happens to balls of a group that overlap at time 0.
+enum class OverlapRule : uint8_t { refuse, push };
+
 struct GroupKeys {
   uint64_t count = 0;
+  const Node* table = nullptr;  // a file
   SpaceKeys in;
   optional<Arrange> arrange = Arrange::random;
   optional<double> speed;   // m/s, standard deviation of a component
   optional<Vec3> velocity;  // m/s; none: that of the group's ball
+  optional<OverlapRule> overlap;
 };
 
 /// A window of time in which a fixed thing moves.

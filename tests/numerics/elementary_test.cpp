@@ -106,6 +106,7 @@ TEST(Exponential, GrowsAsTheReferences) {
       {36.5, 7108019154642244.0649},       {100, 2.6881171418161354484e+43},
       {500.25, 1.802248082388160778e+217}, {709.5, 1.3549863193146328309e+308},
   };
+
   for (const auto& [z, value] : references) EXPECT_LE(ulps(exponential(z), value), allowed) << z;
   EXPECT_EQ(exponential(0), 1);
   EXPECT_EQ(exponential(-1.1), exp_minus(1.1));
@@ -160,16 +161,19 @@ TEST(Logarithm, OfAnyPositiveDoubleIsTheReference) {
       {1e-300, -690.77552789821370518},
       {0.001, -6.9077552789821370312},
       {0.5, -0.69314718055994530942},
+      // Near 1.
       {0.99, -0.010050335853501450155},
       {0.9999999999999999, -1.1102230246251566021e-16},
       {1.0000000000000002, 2.2204460492503128343e-16},
       {1.01, 0.0099503308531680916421},
+      // Above it.
       {2, 0.69314718055994530942},
       {10, 2.302585092994045684},
       {123456.789, 11.723646487185881016},
       {1e+300, 690.77552789821370526},
       {1.7976931348623157e+308, 709.78271289338399673},
   };
+
   for (const auto& [x, value] : references) EXPECT_LE(ulps(logarithm(x), value), allowed) << x;
   EXPECT_EQ(logarithm(1), 0);
 }

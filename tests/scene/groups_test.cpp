@@ -202,6 +202,8 @@ TEST(Groups, SpacesAndRadiiThatCannotBeAreRefused) {
                     "5 of the largest would fit"}}));
   EXPECT_EQ(errors(box, "{from: 0.2, to: 0.1}"),
             (Parts{{"4:95 0.1", "the radii go from 0.2 to 0.1", "expected `from` below `to`"}}));
+
+  // One end is missing, or no radius.
   EXPECT_EQ(errors(box, "{from: 0.2}"),
             (Parts{{"4:71 radius", "`radius` has no `to`", "expected `to`: a number above 0 in m"}}));
   EXPECT_EQ(errors(box, "{from: 0, to: 1}"), (Parts{{"4:86 0", "`from` is 0", "expected a number above 0 in m"}}));

@@ -154,6 +154,8 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   Validator validator("scene");
   const string file = validator.folder() + "/scene.yaml";
   std::ofstream(validator.folder() + "/box.stl") << "a mesh";
+  std::ofstream(validator.folder() + "/heap.csv") << "x_m,y_m,z_m,radius_m,mass_kg\n-5,30,0,0.1,1\n-6,30,0,0.1,1\n";
+
   set<string> visited, all;
   vector<Variation> variations;
   for (const string& scene : right_scenes()) {
