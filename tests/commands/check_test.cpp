@@ -290,8 +290,8 @@ TEST(Check, NamesABodyOfAnotherOrderOfSizeWithTheRemedy) {
 
   const Finished check = here.carom({"check", "units.yaml"});
   EXPECT_NE(
-      check.out.find("  size        part is 1,732 times larger than the rest: `mesh: {file: part.obj, scale: 0.001}`\n"
-                     "              makes it 1,000 times smaller\n"),
+      check.out.find("  size        part is 1,732 times larger than the rest: `mesh: {file: part.obj, scale: 0.001}` "
+                     "makes\n              it 1,000 times smaller\n"),
       string::npos)
       << check.out;
   const Json json = Json::parse(here.carom({"check", "units.yaml", "--json"}).out);
