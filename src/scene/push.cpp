@@ -14,7 +14,11 @@ namespace {
 constexpr double aimed_gap = 1e-6;
 /// Pairs with a gap below this share of the ball's radius are watched.
 constexpr double watched_gap = 0.02;
-constexpr int most_rounds = 20'000;
+constexpr double most_rounds = 20'000;
+/// Pairs in all rounds. A second takes 4e7.
+constexpr double most_pairs = 2e9;
+/// Of the step of a ball with several overlaps. From 2 on, balls in a row would swing to and fro.
+constexpr double relaxation = 1.8;
 
 class Pusher {
  public:
@@ -26,9 +30,10 @@ class Pusher {
   optional<PushedPair> run() {
     watch();
     for (const Watched& pair : pairs_)
-      if (depth_of(pair) >= most_pushed * smaller_radius(pair)) return nullopt;
+      if (depth_of(pair).depth >= most_pushed * smaller_radius(pair)) return nullopt;
 
-    for (int round = 0; round < most_rounds; ++round)
+    double pairs = 0;
+    for (int round = 0; round < most_rounds && pairs < most_pairs; ++round, pairs += double(pairs_.size()))
       if (!move()) return nullopt;
     return deepest();
   }
@@ -37,7 +42,7 @@ class Pusher {
   /// A movable ball and something near it, which moves too if it is another of the movable balls.
   struct Watched {
     Entity ball, other;
-    bool both;
+    bool both, two_balls;
   };
 
   bool is_movable(Entity body) const { return ranges::binary_search(movable_, body); }
@@ -48,14 +53,27 @@ class Pusher {
     return world_.is_body(pair.other) ? min(own, world_.radius[pair.other]) : own;
   }
 
-  Touch touch_of(const Watched& pair) const {
-    return touch(world_, pair.ball, position_[pair.ball], pair.other, place(pair.other));
-  }
+  /// How deep a pair overlaps, and the unit vector from the ball to the other.
+  struct Depth {
+    double depth;  // m; 0: not beyond the rounding of the coordinates
+    Vec3 normal;
+  };
 
-  /// 0: they do not overlap, beyond the rounding of their coordinates.
-  double depth_of(const Watched& pair) const {
-    const double depth = -touch_of(pair).gap;
-    return depth > touch_tolerance(0, 0, position_[pair.ball], place(pair.other)) ? depth : 0;
+  Depth depth_of(const Watched& pair) const {
+    const Vec3 &a = position_[pair.ball], &b = place(pair.other);
+    Depth found{0, Vec3::Zero()};
+    if (pair.two_balls) {
+      const double sum = world_.radius[pair.ball] + world_.radius[pair.other], distance2 = (b - a).squaredNorm();
+      if (distance2 >= sum * sum) return found;
+      const double distance = sqrt(distance2);
+      found = {sum - distance, distance > 0 ? Vec3((b - a) / distance) : Vec3(0, 1, 0)};
+    } else {
+      const Touch now = touch(world_, pair.ball, a, pair.other, b);
+      found = {-now.gap, now.normal};
+    }
+
+    if (found.depth <= touch_tolerance(0, 0, a, b)) found.depth = 0;
+    return found;
   }
 
   /// Finds the pairs that are near one another, each once.
@@ -79,12 +97,13 @@ class Pusher {
         near.insert(overlap.entity);
       for (const Entity other : near) {
         const bool both = is_movable(other), is_watcher = tie(radius, ball) > tie(world_.radius[other], other);
-        if (other != ball && (!both || is_watcher)) pairs_.push_back({ball, other, both});
+        const bool is_ball = world_.volume_of(other).shape == Shape::sphere;
+        if (other != ball && (!both || is_watcher)) pairs_.push_back({ball, other, both, is_ball});
       }
 
       for (Entity fixed = world_.body_count(); fixed < end; ++fixed)
         if (touch(world_, ball, position_[ball], fixed, world_.fixed_position(fixed)).gap < watched_gap * radius)
-          pairs_.push_back({ball, fixed, false});
+          pairs_.push_back({ball, fixed, false, false});
     }
   }
 
@@ -94,11 +113,11 @@ class Pusher {
     asked_.assign(position_.size(), 0);
     bool any = false;
     for (const Watched& pair : pairs_) {
-      const double depth = depth_of(pair);
+      const auto [depth, normal] = depth_of(pair);
       if (depth == 0) continue;
 
       any = true;
-      const Vec3 way = (depth + aimed_gap * smaller_radius(pair)) * (pair.both ? 0.5 : 1.0) * touch_of(pair).normal;
+      const Vec3 way = (depth + aimed_gap * smaller_radius(pair)) * (pair.both ? 0.5 : 1.0) * normal;
       shift_[pair.ball] -= way;
       ++asked_[pair.ball];
       if (!pair.both) continue;
@@ -109,7 +128,7 @@ class Pusher {
     double farthest = 0;
     for (const Entity ball : movable_) {
       if (asked_[ball] == 0) continue;
-      const Vec3 step = shift_[ball] / asked_[ball];
+      const Vec3 step = (asked_[ball] > 1 ? relaxation : 1.0) / asked_[ball] * shift_[ball];
       position_[ball] += step;
       farthest = max(farthest, step.norm());
     }
@@ -123,7 +142,7 @@ class Pusher {
   optional<PushedPair> deepest() const {
     optional<PushedPair> worst;
     for (const Watched& pair : pairs_) {
-      const double depth = depth_of(pair);
+      const double depth = depth_of(pair).depth;
       if (depth > (worst ? worst->depth : 0)) worst = {pair.ball, pair.other, depth};
     }
     return worst;
