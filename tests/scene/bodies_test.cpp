@@ -389,6 +389,16 @@ TEST(Meshes, OfBallsOfManyRadiiAreAsLargeAsEach) {
   EXPECT_EQ(one.roster.bodies[0].mesh->scale_for(1), one.roster.bodies[0].mesh->scale);
 }
 
+TEST(Meshes, KeepTheirFileWhenASettingGivesAnotherPart) {
+  LoadOptions options = with_reader();
+  options.set = {"bodies.a.mesh.scale=0.5"};
+  for (const char* mesh : {"pin.stl", "{file: pin.stl, scale: 3}"}) {
+    const Scene scene = load_with_meshes(
+        start + "bodies: {a: {mass: 1, fit: cylinder, position: [1, 0.19, 0], mesh: " + mesh + "}}\n", options);
+    EXPECT_NEAR(scene.world.volume[0].half.y(), 0.095, 1e-12);
+  }
+}
+
 TEST(Meshes, ThatAreGivenWrongAreRefused) {
   const auto errors = [](const string& mesh) {
     return in_parts(mesh_errors(start + "bodies: {a: {mass: 1, fit: box, position: [0, 0, 0], mesh: " + mesh + "}}\n"));
