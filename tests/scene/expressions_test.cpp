@@ -341,6 +341,10 @@ TEST(Expressions, DrawByTheSeedWhateverTheyStandIn) {
   EXPECT_EQ(load_text(text, option).world.mass[0], 1 + 0.28865318502595894);
   EXPECT_EQ(load_text(text, setting).world.mass[0], 1 + 0.28865318502595894);
   EXPECT_EQ(load_text(scene.resolved, setting).world.mass[0], scene.world.mass[0]);
+
+  // As a sweep sets it.
+  setting.set = {"let.a== 2 * rand(0)"};
+  EXPECT_EQ(load_text(text, setting).world.mass[0], 1 + 2 * 0.5936079187902369);
 }
 
 TEST(ExpressionErrors, ASeedThatIsAnExpressionDrawsNothing) {

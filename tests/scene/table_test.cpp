@@ -83,6 +83,19 @@ TEST(Tables, StandInDefaultsAndInRepeatedGroups) {
   EXPECT_GT(scene.initial.position[1].x(), 5);
 }
 
+TEST(Tables, KeepRadiiAndMassesWhereAFormerRunGivesThePlaces) {
+  LoadOptions options;
+  options.former_state = [](const string&, optional<double>) {
+    return FormerState{{"g.0", "g.1"}, {2, {{7, 0, 0}, {8, 0, 0}}, {{0, 1, 0}, {0, 2, 0}}}};
+  };
+  const Scene scene = load_table("x_m,y_m,z_m,radius_m,mass_kg\n0,0,0,0.2,3\n1,0,0,0.3,4\n",
+                                 scene_of_table + "start: {run: first}\n", options);
+  EXPECT_EQ(scene.initial.position, (vector<Vec3>{{7, 0, 0}, {8, 0, 0}}));
+  EXPECT_EQ(scene.initial.velocity[1], Vec3(0, 2, 0));
+  EXPECT_EQ(scene.world.radius, (vector<double>{0.2, 0.3}));
+  EXPECT_EQ(scene.world.mass, (vector<double>{3, 4}));
+}
+
 TEST(Tables, ThatAreWrongNameTheLineTheColumnAndTheRemedy) {
   EXPECT_EQ(table_errors("x_m,y_m,z_m,radius_m\n1,2,3,x\n1,2\n,1,2,0.1\n1,2,\"1.5 m\",-1\n5,5,1e40,1\n"),
             (Parts{{"2:7 x", "`x` is not a number in the column `radius_m`", "expected a number above 0 in m"},
