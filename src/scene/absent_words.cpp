@@ -130,8 +130,8 @@ constexpr AbsentWord all_words[] = {
     {"csv|table|spreadsheet|excel|xlsx|data",
      "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into "
      "a "
-     "workbook.",
-     "output"},
+     "workbook. A group may begin with the `table` of its balls.",
+     "output|groups.table"},
     {"solver|physics engine|method|algorithm",
      "`simulate.engine` chooses the engine, `integrator` the method of its steps.", "engine|integrator"},
     {"time|length of run|end time|end|run time",
