@@ -11,6 +11,7 @@
 #include "commands/preview.h"
 #include "commands/report.h"
 #include "commands/scene_outcome.h"
+#include "commands/sizes.h"
 #include "commands/slow.h"
 #include "commands/text.h"
 #include "commands/volumes_report.h"
@@ -255,6 +256,7 @@ void describe(Block& block, const PlannedScene& planned, const Findings& finding
   block.line("first hit", first_collision_text(planned, findings.foresight));
   if (!findings.foresight.failure.empty()) block.line("trouble", "a run would stop: " + findings.foresight.failure);
   if (const string slow = slow_text(*planned.scene); !slow.empty()) block.line("slow", slow);
+  for (const string& odd : odd_sizes(*planned.scene)) block.line("size", odd);
 
   if (findings.camera) {
     block.line(
@@ -326,10 +328,9 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"why", planned.price.engine.why},
                 {"duration_s", scene.simulate.duration}};
 
-  if (const auto& start = scene.made_from.start) {
-    entry["start"] = {{"run", start->run}, {"at_s", start->at}, {"file", start->file}};
-    entry["notes"] = scene.made_from.notes;
-  }
+  const auto& start = scene.made_from.start;
+  if (start) entry["start"] = {{"run", start->run}, {"at_s", start->at}, {"file", start->file}};
+  if (start || !scene.made_from.notes.empty()) entry["notes"] = scene.made_from.notes;
 
   entry["volumes"] = volumes_json(scene);
   entry["first_collision"] =
@@ -337,6 +338,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   if (!findings.foresight.trouble.empty()) entry["first_collision_trouble"] = findings.foresight.trouble;
   if (!findings.foresight.failure.empty()) entry["failure"] = findings.foresight.failure;
   if (const string slow = slow_text(scene); !slow.empty()) entry["slow"] = slow;
+  if (const vector<string> odd = odd_sizes(scene); !odd.empty()) entry["odd_sizes"] = odd;
 
   entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
 

@@ -68,7 +68,9 @@ vector<string> idle_settings(const vector<string>& set, const Scene& written,
     if (const OutputKind* kind = output_set(path); kind != nullptr && !kind->asked(written.output)) {
       if (is_same_without(i, written_text)) report(set[i], fmt::format("the output `{}` is not written", kind->name));
     } else if (is_drawn(path) && !draws(written.output)) {
-      if (!path.ends_with(".mesh") || is_same_without(i, [](const Scene& scene) { return motion_text(scene); }))
+      // With `fit` a mesh is the volume, too.
+      if (path.find(".mesh") == string_view::npos ||
+          is_same_without(i, [](const Scene& scene) { return motion_text(scene); }))
         report(set[i], "no output is drawn");
     }
   }

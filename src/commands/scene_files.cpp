@@ -101,6 +101,7 @@ set<string> files_of_scene(const PlannedScene& planned) {
   set<string> files = {planned.file};
   if (planned.scene)
     for (const MeshFile& mesh : planned.scene->meshes) add_mesh(mesh.file, files);
+  if (planned.scene) files.insert(planned.scene->made_from.tables.begin(), planned.scene->made_from.tables.end());
   if (planned.scene && planned.scene->made_from.start)
     files.insert((fs::path(planned.scene->made_from.start->folder) / manifest_name).string());
   if (planned.scene) return files;
@@ -109,8 +110,10 @@ set<string> files_of_scene(const PlannedScene& planned) {
   try {
     const string folder = fs::path(planned.file).parent_path().string();
     for (const SceneValue& value : scene_values(planned.file, text_of(planned.file)))
-      if (value.path.ends_with(".mesh"))
+      if (value.path.ends_with(".mesh") || value.path.ends_with(".mesh.file"))
         add_mesh(beneath(folder, cell_text(value.text)), files);
+      else if (value.path.ends_with(".table"))
+        files.insert(beneath(folder, cell_text(value.text)));
       else if (value.path == "start.run")
         files.insert((fs::path(beneath(folder, cell_text(value.text))) / manifest_name).string());
   } catch (const std::exception&) {

@@ -46,6 +46,12 @@ Json volume_json(const Volume& volume) {
   return {{"box", {2 * volume.half.x(), 2 * volume.half.y(), 2 * volume.half.z()}}};
 }
 
+/// The least and the greatest radius of a ball, a body or a group's balls (m).
+pair<double, double> radii_of(const World& world, const BodyRange& range) {
+  const auto [least, greatest] = ranges::minmax(span(world.radius).subspan(range.first, range.count));
+  return {least, greatest};
+}
+
 }  // namespace
 
 string volumes_text(const Scene& scene) {
@@ -58,8 +64,8 @@ string volumes_text(const Scene& scene) {
   std::unordered_map<string, size_t> numbers;  // in `all`, by text
   const World& world = scene.world;
 
-  const auto add = [&](Entity e, const string& name, const optional<MeshUse>& mesh) {
-    string text = volume_text(world.volume_of(e));
+  const auto add = [&](const string& volume, const string& name, const optional<MeshUse>& mesh) {
+    string text = volume;
     if (mesh) text += fmt::format(", drawn as {}", printable(std::filesystem::path(mesh->file).filename().string()));
     const auto [found, fresh] = numbers.emplace(text, all.size());
     if (fresh) all.push_back({text, {}});
@@ -72,10 +78,15 @@ string volumes_text(const Scene& scene) {
   for (const BodyRange& range : scene.roster.bodies) {
     if (range.count == 0) continue;
     const bool ball = world.volume_of(range.first).shape == Shape::sphere;
-    if (!ball || range.mesh) add(range.first, range.name, range.mesh);
+    const auto [least, greatest] = radii_of(world, range);
+    const string text = least == greatest
+                            ? volume_text(world.volume_of(range.first))
+                            : fmt::format("spheres of radius {:.4g} to {}", least, quantity(greatest, "m"));
+    if (!ball || range.mesh) add(text, range.name, range.mesh);
   }
   for (auto i = Entity(world.planes.size() + world.walls.size()); i < world.fixed_count(); ++i) {
-    add(world.body_count() + i, scene.roster.fixed[i].name, scene.roster.fixed[i].mesh);
+    const FixedLook& fixed = scene.roster.fixed[i];
+    add(volume_text(world.volume_of(world.body_count() + i)), fixed.name, fixed.mesh);
   }
 
   vector<string> texts;
@@ -93,8 +104,12 @@ Json volumes_json(const Scene& scene) {
   Json volumes = Json::object();
   const World& world = scene.world;
   for (const BodyRange& range : scene.roster.bodies) {
-    if (range.count > 0) volumes[range.name] = volume_json(world.volume_of(range.first));
+    if (range.count == 0) continue;
+    const auto [least, greatest] = radii_of(world, range);
+    volumes[range.name] = least == greatest ? volume_json(world.volume_of(range.first))
+                                            : Json{{"radius", {{"from", least}, {"to", greatest}}}};
   }
+
   const auto first = Entity(world.planes.size() + world.walls.size());
   for (Entity i = first; i < world.fixed_count(); ++i) {
     volumes[scene.roster.fixed[i].name] = volume_json(world.volume_of(world.body_count() + i));

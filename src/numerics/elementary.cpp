@@ -98,6 +98,13 @@ SinCos sin_cos(DoubleDouble z) {
   return {-sign * of.cos, of.sin};
 }
 
+double exponential(double z) {
+  if (z <= 0) return exp_minus(-z);
+  if (!(z < 710)) return z + infinity;
+  const Halvings h = halvings(z);
+  return std::ldexp(1 + exp_change_reduced(-h.rest), h.count);
+}
+
 double exp_minus(double z) {
   if (!(z < 746)) return 0;
   const Halvings h = halvings(z);
@@ -118,6 +125,13 @@ double log_one_plus(double y) {
   // (1 + y) exp(-guess) - 1
   const double rest = (two_product(exp_minus(guess), y) - DoubleDouble{exp_loss(guess), 0}).value();
   return guess + rest * (1 - 0.5 * rest);
+}
+
+double logarithm(double x) {
+  // The reciprocal of a lesser x has no double.
+  if (x < 0x1p-1000) return logarithm(std::ldexp(x, 512)) - 512 * (ln2_hi + ln2_lo);
+  // x - 1 and 1 - x are exact where they are small.
+  return x >= 1 ? log_one_plus(x - 1) : -log_one_plus((1 - x) / x);
 }
 
 double arc_sinh(double y) {

@@ -17,6 +17,9 @@ inline SinCos sin_cos(double z) {
   return sin_cos(DoubleDouble{z, 0});
 }
 
+/// exp(z). The result is 0 where that is below the least double, and infinite where it is above the greatest.
+double exponential(double z);
+
 /// exp(-z) for z >= 0. The result is 0 where that is below the least double.
 double exp_minus(double z);
 
@@ -25,6 +28,9 @@ double exp_loss(double z);
 
 /// log(1 + y) for y >= 0, with full relative precision for every y.
 double log_one_plus(double y);
+
+/// The natural logarithm of x > 0, with full relative precision for every x.
+double logarithm(double x);
 
 /// The inverse hyperbolic sine: u with sinh(u) = y.
 double arc_sinh(double y);

@@ -42,10 +42,6 @@ Scaled whole_power(double x, double n) {
   return normalized(DoubleDouble{1, 0} / result.mantissa, -result.exponent);
 }
 
-double log_of(double m) {
-  return m >= 1 ? log_one_plus(m - 1) : -log_one_plus((1 - m) / m);
-}
-
 double exp_of(double z) {
   return z <= 0 ? exp_minus(-z) : 1 / exp_minus(z);
 }
@@ -62,7 +58,7 @@ Scaled root(double x, double f) {
   const double whole = std::nearbyint(twos.hi);
   const double rest = (twos.hi - whole) + twos.lo;
   constexpr double ln2 = 0x1.62e42fefa39efp-1;
-  return normalized({exp_of(f * log_of(m) + rest * ln2), 0}, int64_t(whole));
+  return normalized({exp_of(f * logarithm(m) + rest * ln2), 0}, int64_t(whole));
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 namespace carom {
 namespace {
 
+/// 2^64 over the golden ratio.
+constexpr uint64_t step = 0x9E3779B97F4A7C15ULL;
+
 uint64_t mix(uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
@@ -20,11 +23,16 @@ Random::Random(uint64_t seed, string_view stream) {
   // FNV-1a of the name.
   uint64_t hash = 0xCBF29CE484222325ULL;
   for (const char c : stream) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3ULL;
-  state_ = mix(mix(seed + 0x9E3779B97F4A7C15ULL) ^ hash);
+  state_ = mix(mix(seed + step) ^ hash);
+}
+
+Random& Random::skip(uint64_t count) {
+  state_ += count * step;
+  return *this;
 }
 
 uint64_t Random::bits() {
-  state_ += 0x9E3779B97F4A7C15ULL;
+  state_ += step;
   return mix(state_);
 }
 

@@ -12,6 +12,9 @@ class Random {
   /// Streams with different names are independent of one another.
   Random(uint64_t seed, string_view stream);
 
+  /// Passes over so many of the numbers to come. It costs nothing.
+  Random& skip(uint64_t count);
+
   uint64_t bits();
   /// Uniform: 0 <= u < 1, a multiple of 2^-53.
   double uniform() { return double(bits() >> 11) * 0x1p-53; }

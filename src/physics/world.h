@@ -71,10 +71,10 @@ struct PairRestitution {
 
 /// Balls that come into the world one after the other, each where there is room for it.
 struct Pour {
-  Entity first, count;  // all of one radius
-  double rate;          // 1/s; the first one is due at World::appears
-  Vec3 center;          // m, of the volume in which the centres are
-  Volume within;
+  Entity first, count;
+  double rate;    // 1/s; the first one is due at World::appears
+  Vec3 center;    // m, of the space
+  Volume within;  // the space that a ball lies wholly inside
   uint64_t seed;  // of their places
 };
 

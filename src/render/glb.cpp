@@ -70,7 +70,9 @@ class GlbBuilder {
 
   void add_body(const BodyRange& range, Entity body) {
     const Volume volume = scene_.world.volume_of(body);
-    first_scales_.push_back(range.mesh ? Vec3(Vec3::Ones()) : volume.half);
+    const double radius = scene_.world.radius[body];
+    first_scales_.push_back(range.mesh ? Vec3(Vec3::Constant(range.mesh->scale_for(radius) / range.mesh->scale))
+                                       : volume.half);
     file_.add("nodes", {{"name", scene_.roster.name(body)},
                         {"mesh", range.mesh ? meshes_.file(*range.mesh, range.color)
                                             : meshes_.volume(volume.shape, range.color)},

@@ -158,7 +158,8 @@ size_t GlbMeshes::volume(Shape shape, const Color& color) {
 }
 
 size_t GlbMeshes::file(const MeshUse& use, const Color& color) {
-  const array<double, 4> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
+  array<double, 13> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
+  for (size_t k = 0; k < 9; ++k) how[4 + k] = use.turn[k / 3][ptrdiff_t(k % 3)];
   // A mesh whose parts all have a colour is the same for every body.
   constexpr Srgb any{-1, -1, -1};
   const Srgb own{color.r, color.g, color.b};

@@ -22,7 +22,7 @@ class GlbMeshes {
 
  private:
   using Srgb = array<double, 3>;
-  using Use = std::tuple<string, array<double, 4>, bool, Srgb>;
+  using Use = std::tuple<string, array<double, 13>, bool, Srgb>;
 
   nlohmann::ordered_json primitive(const Mesh& mesh, size_t material);
   size_t material(const Color& color, bool two_sided);

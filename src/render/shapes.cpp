@@ -4,6 +4,7 @@
 
 #include "render/mesh.h"
 #include "render/render_error.h"
+#include "render/still_things.h"
 #include "std.h"
 
 namespace carom {
@@ -12,6 +13,7 @@ Shapes::Shapes(const vector<DrawnFile>& files) : instances_(gl::make_buffer()) {
     Mesh mesh;
     try {
       mesh = file.own_colors ? read_painted_mesh(file.path) : read_mesh(file.path);
+      turn_mesh(mesh, file.turn);
     } catch (const runtime_error& error) {
       throw RenderError(error.what());
     }

@@ -229,10 +229,17 @@ Mesh placed(const Mesh& mesh, const Vec3& scale, const Vec3& middle) {
   return out;
 }
 
+void turn_mesh(Mesh& mesh, const MeshTurn& turn) {
+  if (turn == no_turn) return;
+  for (Vec3& vertex : mesh.vertices) vertex = turned(turn, vertex);
+  for (Vec3& normal : mesh.normals) normal = turned(turn, normal);
+}
+
 Mesh drawn_mesh(const MeshUse& use) {
   try {
-    return placed(use.own_colors ? read_painted_mesh(use.file) : read_mesh(use.file), Vec3::Constant(use.scale),
-                  -use.scale * use.center);
+    Mesh mesh = use.own_colors ? read_painted_mesh(use.file) : read_mesh(use.file);
+    turn_mesh(mesh, use.turn);
+    return placed(mesh, Vec3::Constant(use.scale), -use.scale * use.center);
   } catch (const runtime_error& error) {
     throw RenderError(error.what());
   }

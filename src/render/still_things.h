@@ -29,5 +29,7 @@ Mesh placed(const Mesh& mesh, const Vec3& scale, const Vec3& middle);
 /// The mesh that is drawn in place of a volume about the origin, with paint if it has colours of its own. Throws
 /// RenderError.
 Mesh drawn_mesh(const MeshUse& use);
+/// Turns the axes of the file to those of the world.
+void turn_mesh(Mesh& mesh, const MeshTurn& turn);
 
 }  // namespace carom

@@ -44,8 +44,12 @@ Things::Things(const Scene& scene) : scene_(scene) {
   looks_.resize(bodies);
   for (const BodyRange& range : scene.roster.bodies) {
     const Look look = look_of(range.color, range.mesh);
-    for (size_t i = range.first; i < range.first + size_t{range.count} && i < bodies; ++i) looks_[i] = look;
+    for (size_t i = range.first; i < range.first + size_t{range.count} && i < bodies; ++i) {
+      looks_[i] = look;
+      if (look.mesh) looks_[i].mesh->scale = look.mesh->scale_for(scene.world.radius[i]);
+    }
   }
+
   for (uint32_t i = 0; i < scene.world.obstacles.size(); ++i) {
     const FixedLook& name = look_of_obstacle(scene, i);
     if (!name.visible) continue;
@@ -57,7 +61,7 @@ Things::Things(const Scene& scene) : scene_(scene) {
 Look Things::look_of(const Color& color, const optional<MeshUse>& mesh) {
   Look look{linear(color), mesh, 0, {}};
   if (mesh) {
-    const DrawnFile file{mesh->file, mesh->own_colors};
+    const DrawnFile file{mesh->file, mesh->turn, mesh->own_colors};
     look.file = size_t(ranges::find(files_, file) - files_.begin());
     if (look.file == files_.size()) files_.push_back(file);
   }

@@ -27,9 +27,10 @@ struct MeshSize {
   optional<MeanColor> mean = nullopt;  // if it is drawn in colours of its own
 };
 
-/// A file of meshes, as it is read.
+/// A file of meshes, as it is read and turned.
 struct DrawnFile {
   string path;
+  MeshTurn turn;
   bool own_colors;  // with the colours of the file, where it has any
   friend bool operator==(const DrawnFile&, const DrawnFile&) = default;
 };

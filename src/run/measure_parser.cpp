@@ -258,6 +258,9 @@ void read_formula(string_view text, size_t from, span<const string> own, Measure
   parts.read();
   try {
     const Formula checked(measure.formula, names_of_parts(measure), "expected a measure, let.NAME or a number");
+    if (checked.draws())
+      throw MeasureError(
+          fmt::format("{}: a measure draws no numbers; expected `rand` in `let`", in_backticks(measure.name)));
   } catch (const FormulaError& error) {
     throw MeasureError(fmt::format("{}: {}{}{}", in_backticks(measure.name), error.message,
                                    error.remedy.empty() ? "" : "; ", error.remedy),

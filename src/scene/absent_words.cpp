@@ -16,11 +16,11 @@ constexpr AbsentWord all_words[] = {
      "everywhere; restitution takes energy at impacts.",
      "drag|restitution"},
     {"rotation|rotate|turning|orientation|angle|euler angles|quaternion|tilt|roll|rolling",
-     "Bodies do not turn: they are point particles in bounding volumes of fixed orientation. A plane or a wall "
-     "can be tilted by its normal.",
-     "plane|wall"},
+     "Bodies do not turn, on purpose: they are point particles in bounding volumes of fixed orientation. A plane or a "
+     "wall can be tilted by its normal, and a mesh has a fixed `turn`.",
+     "plane|wall|mesh.turn"},
     {"spin|angular velocity|torque|moment of inertia|inertia|angular momentum",
-     "Bodies do not turn, so they have no spin, torque or moment of inertia.", "velocity|impulse"},
+     "Bodies do not turn, on purpose, so they have no spin, torque or moment of inertia.", "velocity|impulse"},
     {"joint|constraint|ball joint|slider|weld|motor|ragdoll|linkage",
      "Joints are `strings` between bodies, or from a point to a body, and rods, which are strings with `rod: true`. "
      "`simulate.contact: merge` merges bodies that meet.",
@@ -54,6 +54,11 @@ constexpr AbsentWord all_words[] = {
      "Elasticity is the coefficient of restitution: 1 elastic, below 1 inelastic, 0 perfectly inelastic. "
      "`simulate.contact: merge` makes bodies stick together for good.",
      "restitution|contact"},
+    {"velocity dependent restitution|speed dependent restitution|restitution curve|restitution of speed|viscoelastic|"
+     "viscoelasticity|hertz|impact law",
+     "The coefficient of restitution does not depend on the speed, on purpose: impacts take no time, and each pair has "
+     "one number. Slow impacts under load end in rest, by `rest_speed`.",
+     "restitution|pair|rest_speed"},
     {"camera path|camera motion|fly through|flythrough|tracking shot|keyframes|dolly|orbit camera|zoom",
      "`camera.path` moves the camera through keyframes, and `camera.follow` takes it along with a body. "
      "`carom render` draws other views of a run without simulating again.",
@@ -125,8 +130,8 @@ constexpr AbsentWord all_words[] = {
     {"csv|table|spreadsheet|excel|xlsx|data",
      "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into "
      "a "
-     "workbook.",
-     "output"},
+     "workbook. A group may begin with the `table` of its balls.",
+     "output|groups.table"},
     {"solver|physics engine|method|algorithm",
      "`simulate.engine` chooses the engine, `integrator` the method of its steps.", "engine|integrator"},
     {"time|length of run|end time|end|run time",
@@ -137,11 +142,22 @@ constexpr AbsentWord all_words[] = {
      "Bodies that rest cost nothing until something strikes them. `rest_speed` sets which impacts end in rest.",
      "rest_speed"},
     {"scale|scaling|scale factor|resize",
-     "A mesh is drawn scaled into its volume, which has the size; with `fit` it keeps its own size. Lengths may be "
-     "expressions of one number of `let`.",
-     "mesh|fit|let"},
+     "A mesh is drawn scaled into its volume, which has the size; with `fit` it keeps its own size, in units of its "
+     "`scale`. Lengths may be expressions of one number of `let`.",
+     "mesh.scale|fit|let"},
+    {"millimetre|millimeter|mm|stl|obj|cad|z up|up axis",
+     "A mesh in millimetres has the `scale` 0.001, and one that is drawn with z upwards has `up: z`.",
+     "mesh.scale|mesh.up|fit"},
+    {"polydisperse|polydispersity|size distribution|radius distribution|radii|sizes",
+     "The balls of a group have one radius each by the seed with `radius: {from: 0.02, to: 0.05}`, or the radii of a "
+     "`table`.",
+     "groups.ball.radius|groups.table"},
+    {"packing|positions|coordinates|placement file|initial positions|load positions",
+     "A group begins with the places of a CSV file by `table`. `overlap: push` moves apart what overlaps a little.",
+     "groups.table|groups.overlap|groups.in"},
     {"periodic|periodic boundary|periodic boundaries|boundary condition|wrap around|boundary|domain",
-     "There are no periodic boundaries. A `room` has six planes, and a region with `action: remove` takes away what "
+     "There are no periodic boundaries, on purpose. A `room` has six planes, and a region with `action: remove` takes "
+     "away what "
      "leaves or arrives.",
      "room|region.action"},
     {"emitter|emit|source|spawn|pour|pouring|insert|insertion|inject|injection|inflow|feed|hopper|nozzle|generator",
@@ -162,9 +178,9 @@ constexpr AbsentWord all_words[] = {
      "tables are CSV for any program.",
      "let|ball.repeat|sweep"},
     {"random|randomness|random position|random velocity|noise|rng|monte carlo|stochastic|jitter|distribution",
-     "`seed` decides all that is random: the places of a group with `arrange: random`, and its velocities with "
-     "`speed`. A sweep may draw its values.",
-     "seed|groups.arrange|groups.speed"},
+     "`seed` decides all that is random: the places of a group with `arrange: random`, its velocities with `speed`, "
+     "its radii, and rand(i) in expressions. A sweep may draw its values.",
+     "seed|groups.arrange|groups.speed|groups.ball.radius|let"},
     {"pressure|stress|load|weight|normal force|reaction|reaction force|contact force",
      "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. Pressure "
      "is their sum over an area and a time.",

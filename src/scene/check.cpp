@@ -138,7 +138,7 @@ class Checker : ValueChecker {
       if (field == nullptr || field->type == Type::text || field->own) continue;
       if (field->type == Type::color_or_none || field->type == Type::number_or_none) continue;
       // A file may have this name, in quotes.
-      if (field->type == Type::file && value.quoted) continue;
+      if ((field->type == Type::file || field->type == Type::file_or_part) && value.quoted) continue;
       const vector<string_view> all = field->type == Type::choice ? choices(*field) : vector<string_view>();
       value.cancels = !contains(all, "none");
     }
@@ -317,7 +317,9 @@ class Checker : ValueChecker {
       case Type::color_or_none:
         return color(value, name, ColorWords::colors_and_none);
       case Type::color_or_part:
-        return is_map ? part(value, field, key, partial) : color(value, name);
+      case Type::number_or_part:
+      case Type::file_or_part:
+        return is_map ? part(value, field, key, partial) : value_for_part(value, field, name);
       case Type::name:
         if (!is_scalar) wrong_type(value, name, required);
         return;
@@ -348,6 +350,13 @@ class Checker : ValueChecker {
       default:
         return value_of_sweep(value, field, name, required);
     }
+  }
+
+  /// Checks a value that stands in place of a map.
+  void value_for_part(Node& value, const Field& field, const string& name) {
+    if (field.type == Type::color_or_part) color(value, name);
+    if (field.type == Type::number_or_part) number(value, field, name, limited_range(field));
+    if (field.type == Type::file_or_part) file(value, field);
   }
 
   /// Checks a value of a type that only sweep files have.

@@ -8,6 +8,7 @@
 #include "scene/expressions.h"
 #include "scene/fields.h"
 #include "scene/scene.h"
+#include "scene/view.h"
 #include "std.h"
 #include "yaml/values.h"
 
@@ -68,13 +69,15 @@ pair<string, string> without_member(string_view path) {
 
 class Expander {
  public:
-  Expander(const Budget& budget, Diagnostics& diagnostics) : budget_(budget), diagnostics_(diagnostics) {}
+  Expander(optional<uint64_t> seed, const Budget& budget, Diagnostics& diagnostics)
+      : seed_(seed), budget_(budget), diagnostics_(diagnostics) {}
 
   ExpressionTexts run(Node& root) {
     values_ = double(count_values(root));
+    numbers_.seed = seed_;
     if (Node* let = root.find("let"); let != nullptr && let->is_map()) {
       for (size_t i = 0; i < let->keys.size(); ++i) note("let." + let->keys[i].text, let->items[i]);
-      numbers_ = read_let(*let, diagnostics_);
+      numbers_ = read_let(*let, seed_, diagnostics_);
     }
     map(root, kind_named("scene"), "");
     note_defaults(root);
@@ -108,6 +111,7 @@ class Expander {
       if (holds_map(field)) map(node, *field.held, path);
       return;
     }
+    if (field.type == Type::file_or_part) return;
     scalar(node, path);
     if (!node.is_sequence()) return;
     for (size_t i = 0; i < node.items.size(); ++i)
@@ -434,6 +438,7 @@ class Expander {
     return false;
   }
 
+  const optional<uint64_t> seed_;
   const Budget& budget_;
   Diagnostics& diagnostics_;
   NamedNumbers numbers_;
@@ -448,6 +453,14 @@ class Expander {
 }  // namespace
 
 namespace {
+
+/// None: it is an expression.
+optional<uint64_t> seed_of(const Node& root) {
+  const Node* seed = root.find("seed");
+  if (seed != nullptr && is_expression(*seed)) return nullopt;
+  // The check refuses one that is no number.
+  return as_whole(seed).value_or(0);
+}
 
 /// Gives groups without a `ball` an empty one, which then has the values of `defaults: {ball: ..}`.
 void write_out_balls(Node& root) {
@@ -499,9 +512,10 @@ const string* repeat_of(const ExpressionTexts& texts, string_view path) {
   return found == texts.end() ? nullptr : &found->second;
 }
 
-ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics) {
+ExpressionTexts expand(Node& root, optional<uint64_t> seed, const Budget& budget, Diagnostics& diagnostics) {
   write_out_balls(root);
-  return has_shorthands(root) ? Expander(budget, diagnostics).run(root) : ExpressionTexts{};
+  if (!has_shorthands(root)) return {};
+  return Expander(seed ? seed : seed_of(root), budget, diagnostics).run(root);
 }
 
 }  // namespace carom

@@ -25,6 +25,7 @@ void write_out(Node& part, const Kind& kind);
 /// A group without a ball gets an empty one where `defaults` have a ball.
 /// Adds errors, and marks values bad whose expression has no number. A thing with `repeat: 0` stays as it is.
 /// More values than a file may have, or more members than `budget` has bodies, are refused before they are made.
-ExpressionTexts expand(Node& root, const Budget& budget, Diagnostics& diagnostics);
+/// `seed`: in place of the file's, for rand(i).
+ExpressionTexts expand(Node& root, optional<uint64_t> seed, const Budget& budget, Diagnostics& diagnostics);
 
 }  // namespace carom

@@ -23,7 +23,9 @@ string hint_for(const NamedNumbers& numbers) {
 /// Evaluates `let` in the order of its dependences.
 class LetReader {
  public:
-  LetReader(Node& let, Diagnostics& diagnostics) : let_(let), diagnostics_(diagnostics) {}
+  LetReader(Node& let, optional<uint64_t> seed, Diagnostics& diagnostics) : let_(let), diagnostics_(diagnostics) {
+    numbers_.seed = seed;
+  }
 
   NamedNumbers run() {
     if (let_.keys.size() > most_names) {
@@ -84,7 +86,7 @@ class LetReader {
       }
 
       if (node.bad) return;
-      set(i, formula.value(numbers_.values));
+      set(i, formula.value(numbers_.values, numbers_.seed));
       node.text = shortest(numbers_.values[i]);
       node.quoted = false;
     } catch (const FormulaError& error) {
@@ -131,8 +133,8 @@ bool has_braces(const Node& node) {
   return node.is_scalar() && node.text.find('{') != string::npos;
 }
 
-NamedNumbers read_let(Node& let, Diagnostics& diagnostics) {
-  return LetReader(let, diagnostics).run();
+NamedNumbers read_let(Node& let, optional<uint64_t> seed, Diagnostics& diagnostics) {
+  return LetReader(let, seed, diagnostics).run();
 }
 
 Place place_in(const Node& node, size_t at, const FormulaError& error) {
@@ -189,7 +191,7 @@ optional<double> Slot::evaluate(const Piece& piece, const NamedNumbers& numbers,
   for (const size_t used : piece.formula->used())
     if (!numbers.known[used]) return nullopt;  // its error was reported
   try {
-    const double value = piece.formula->value(numbers.values);
+    const double value = piece.formula->value(numbers.values, numbers.seed);
     if (!is_name_ || (floor(value) == value && std::abs(value) < 1e15)) return value;
     throw FormulaError{0, 1, fmt::format("the number in this name is {}", shortest(value)), "expected a whole number"};
   } catch (const FormulaError& error) {

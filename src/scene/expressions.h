@@ -13,6 +13,8 @@ struct NamedNumbers {
   vector<string> names;
   vector<double> values;
   vector<bool> known;
+  /// Of numbers drawn by rand(i). None: it is not known yet.
+  optional<uint64_t> seed = {};
 
   void add(string name, double value);
   bool has(string_view name) const;
@@ -25,7 +27,7 @@ bool has_braces(const Node& node);
 
 /// Reads the map `let` and replaces its expressions by their numbers.
 /// Adds errors for names that expressions cannot have, circles, and expressions without a value.
-NamedNumbers read_let(Node& let, Diagnostics& diagnostics);
+NamedNumbers read_let(Node& let, optional<uint64_t> seed, Diagnostics& diagnostics);
 
 /// One value of the tree that holds expressions, and its expressions ready for evaluation.
 class Slot {

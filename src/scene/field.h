@@ -22,7 +22,9 @@ enum class Type : uint8_t {
   color,           // CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1
   color_or_none,   // a colour, or the word none
   color_or_part,   // a colour, or a map of kind Field::of
+  number_or_part,  // a finite number, or a map of kind Field::of
   file,            // path, from the scene file's folder
+  file_or_part,    // a path, or a map of kind Field::of
   name,            // of a body or a fixed thing
   point_or_name,   // [x, y, z], numbers in range, or the name of a body
   two_names,       // [name, name] of bodies or fixed things
@@ -73,6 +75,7 @@ struct TypeFacts {
   Inside inside = Inside::nothing;
   string_view components = {};  // separated by |
   string_view other_form = {};  // where the row has `plain`, and of names with Field::of
+  bool or_value = false;        // a single value may stand in place of the map
 };
 const TypeFacts& facts_of(Type type);
 

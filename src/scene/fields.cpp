@@ -87,7 +87,7 @@ constexpr Field ball_restitution = row<BodyKeys, &BodyKeys::restitution>("restit
 constexpr Field impulse = row_if_given<BodyKeys, &BodyKeys::impulse>("impulse", "Impulse at time 0.", "[-20, 0, 0]", {.unit = "N s"});
 constexpr Field body_color_field = row_if_given<BodyKeys, &BodyKeys::color>("color", "Colour in pictures, or colours by a quantity. Default: those of the mesh file, or one is chosen.", "crimson", {.of = "coloring", .drawn = true});
 template <typename Keys> constexpr Field color = row_if_given<Keys, &Keys::color>("color", "Colour in pictures. Default: one is chosen.", "crimson", {.drawn = true});
-constexpr Field mesh = row<BodyKeys, &BodyKeys::mesh>("mesh", "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", "meshes/duck.obj", {.type = Type::file, .drawn = true});
+constexpr Field mesh = row<BodyKeys, &BodyKeys::mesh>("mesh", "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", "meshes/duck.obj", {.type = Type::file_or_part, .of = "mesh", .drawn = true});
 constexpr Field ball_position = row<BodyKeys, &BodyKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true});
 
 // The members of a repeated thing replace it before its map is checked and decoded (expand.h).
@@ -109,7 +109,14 @@ template <typename Keys> constexpr Field radius_of = row<Keys, &Keys::radius>("r
 template <typename Keys> constexpr Field cylinder = row<Keys, &Keys::cylinder>("cylinder", "An upright cylinder, its axis along y.", "{radius: 0.1, height: 1}", {.of = "cylinder", .one_of = volumes});
 template <typename Keys> constexpr Field box = row<Keys, &Keys::box>("box", "An axis-aligned box: its full edge lengths.", "[0.4, 0.3, 0.4]", {.unit = "m", .range = above_0, .one_of = volumes});
 template <typename Keys> constexpr Field fit = row<Keys, &Keys::fit>("fit", "The tightest such volume around the mesh; position is its centre.", "box", {.of = "sphere|cylinder|box", .one_of = volumes, .with = "mesh"});
-template <typename Keys> constexpr Field mesh_of = row<Keys, &Keys::mesh>("mesh", "Mesh file: in its own size with `fit`, else drawn scaled into the volume. Without `color` it has the colours and textures of the file.", "meshes/pin.obj", {.type = Type::file, .drawn = true});
+template <typename Keys> constexpr Field mesh_of = row<Keys, &Keys::mesh>("mesh", "Mesh file: in its own size with `fit`, else drawn scaled into the volume. Without `color` it has the colours and textures of the file.", "meshes/pin.obj", {.type = Type::file_or_part, .of = "mesh", .drawn = true});
+
+constexpr Field mesh_fields[] = {
+    row<MeshKeys, &MeshKeys::file>("file", "Mesh file.", "meshes/part.stl", {.type = Type::file, .needed = true}),
+    row<MeshKeys, &MeshKeys::scale>("scale", "Size of the file's unit with `fit`: 0.001 for mm. A volume that is given has its own size.", "0.001", {.unit = "m", .range = above_0, .title = "Size of the file's unit"}),
+    row<MeshKeys, &MeshKeys::up>("up", "The axis of the file that is up in the world.", "z", {.of = "x|y|z", .title = "Axis that is up"}),
+    row<MeshKeys, &MeshKeys::turn>("turn", "Angles by which the mesh is turned about x, then y, then z of the world, after `up`.", "[30, 0, 0]", {.unit = "degrees", .range = {-360, 360}, .title = "Turn"}),
+};
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
@@ -121,11 +128,20 @@ constexpr Field cylinder_fields[] = {
     row<CylinderKeys, &CylinderKeys::height>("height", "Height, along y.", "1", {.unit = "m", .range = above_0, .needed = true}),
 };
 
-constexpr Field member_fields[] = {mass, density, radius, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
+constexpr Field radius_or_radii = row<BodyKeys, &BodyKeys::radius>("radius", "Radius. A map: each ball has its own, uniform by the seed; with `density` also its own mass.", "{from: 0.02, to: 0.05}", {.type = Type::number_or_part, .unit = "m", .range = above_0, .of = "radii", .needed = true});
+
+constexpr Field radii_fields[] = {
+    row<RadiiKeys, &RadiiKeys::from>("from", "The least radius.", "0.02", {.unit = "m", .range = above_0, .needed = true, .title = "Least radius"}),
+    row<RadiiKeys, &RadiiKeys::to>("to", "The greatest radius, which none reaches.", "0.05", {.unit = "m", .range = above_0, .needed = true, .title = "Greatest radius"}),
+};
+
+constexpr Field member_fields[] = {mass, density, radius_or_radii, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
 
 constexpr Field placed_fields[] = {
     row<PlacedKeys, &PlacedKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true}),
     row_if_given<PlacedKeys, &PlacedKeys::velocity>("velocity", "Velocity at time 0. Default: that of the group's ball.", "[2, 0, 0]", {.unit = "m/s"}),
+    row<PlacedKeys, &PlacedKeys::radius>("radius", "Radius. Default: that of the group's ball.", "0.11", {.unit = "m", .range = above_0}),
+    row<PlacedKeys, &PlacedKeys::mass>("mass", "Mass. Default: that of the group's ball, or by its density.", "10", {.unit = "kg", .range = above_0}),
 };
 
 constexpr Field start_fields[] = {
@@ -134,23 +150,28 @@ constexpr Field start_fields[] = {
 };
 
 constexpr Field group_fields[] = {
-    row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .one_of = "count|rate", .needed = true}),
-    row("ball", "A ball of the group, without position. Not needed where defaults.ball has all of it.", "{mass: 1, radius: 0.1}", {.type = Type::part, .of = "member", .needed = true}),
-    row<GroupKeys, &GroupKeys::in>("in", "The box that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members", .needed = true, .title = "Box of the balls"}),
+    row<GroupKeys, &GroupKeys::count>("count", "Number of balls: name.0, name.1, ...", "20", {.range = from_0, .one_of = "count|rate|table", .needed = true}),
+    row("ball", "A ball of the group, without position. Not needed where defaults.ball has all of it.", "{mass: 1, radius: 0.1}", {.type = Type::part, .of = "member", .needed = true, .spared_by = "table"}),
+    row<GroupKeys, &GroupKeys::table>("table", "A CSV file with a line for each ball, in place of `count` and `in`. Columns x_m, y_m, z_m, and where present vx_m_per_s, vy_m_per_s, vz_m_per_s, radius_m, mass_kg, which override the ball's; other columns are ignored.", "packing.csv", {.type = Type::file, .one_of = "table|count|rate|in|arrange|speed|members", .title = "Table of the balls"}),
+    row_if_given<GroupKeys, &GroupKeys::overlap>("overlap", "What happens to balls that overlap something at time 0. push: they are moved apart, if by less than 1/1000 of the smaller radius. Default: refuse.", "push", {.of = "refuse|push", .title = "Overlap at time 0"}),
+    row<GroupKeys, &GroupKeys::in>("in", "The box, ball or cylinder that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members|table", .needed = true, .title = "Space of the balls"}),
     row<GroupKeys, &GroupKeys::appear>("appear", "When the balls come into the world, each where its place is free.", "1.5", {.unit = "s", .range = from_0, .one_of = "appear|rate"}),
-    row_if_given<GroupKeys, &GroupKeys::rate>("rate", "Balls that come one after the other, so many in a second, in place of `count`. Each comes at a place in `in` where there is room, by the seed; where there is none, it tries again after 1/rate.", "50", {.unit = "1/s", .range = above_0, .one_of = "rate|count|members|arrange|appear", .title = "Balls in a second"}),
+    row_if_given<GroupKeys, &GroupKeys::rate>("rate", "Balls that come one after the other, so many in a second, in place of `count`. Each comes at a place in `in` where there is room, by the seed; where there is none, it tries again after 1/rate.", "50", {.unit = "1/s", .range = above_0, .one_of = "rate|count|table|members|arrange|appear", .title = "Balls in a second"}),
     row<GroupKeys, &GroupKeys::from>("from", "When the first ball of `rate` comes.", "0", {.unit = "s", .range = from_0, .with = "rate"}),
     row_if_given<GroupKeys, &GroupKeys::until>("until", "The balls of `rate` come before this time. Default: the run's end.", "4", {.unit = "s", .range = from_0, .with = "rate"}),
-    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the box; hexagonal: close-packed layers, spread as far as the box allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members|rate"}),
-    row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members"}),
+    row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the space; hexagonal: close-packed layers, spread as far as the space allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members|rate|table"}),
+    row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members|table"}),
     row<GroupKeys, &GroupKeys::velocity>("velocity", "Velocity of every ball at time 0.", "[0, -1, 0]", {.unit = "m/s", .one_of = "speed|velocity|members"}),
-    row("members", "Each ball's position and velocity, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity|rate", .title = "Balls one by one"}),
+    row("members", "Each ball's position, and what it has for itself, as many as `count`.", "[{position: [0, 2, 0], velocity: [1, 0, 0]}]", {.type = Type::list, .of = "placed", .one_of = "members|in|arrange|speed|velocity|rate|table", .title = "Balls one by one"}),
     repeat,
 };
 
 constexpr Field in_fields[] = {
-    row<BoxKeys, &BoxKeys::min>("min", "Lowest corner.", "[-2, 2, -2]", {.unit = "m", .needed = true, .title = "Lowest corner"}),
-    row<BoxKeys, &BoxKeys::max>("max", "Highest corner.", "[2, 4, 2]", {.unit = "m", .needed = true, .title = "Highest corner"}),
+    row<SpaceKeys, &SpaceKeys::min>("min", "Lowest corner of a box.", "[-2, 2, -2]", {.unit = "m", .one_of = "min|radius|cylinder|position", .needed = true, .title = "Lowest corner", .with = "max"}),
+    row<SpaceKeys, &SpaceKeys::max>("max", "Highest corner of a box.", "[2, 4, 2]", {.unit = "m", .one_of = "max|radius|cylinder|position", .title = "Highest corner", .with = "min"}),
+    row<SpaceKeys, &SpaceKeys::radius>("radius", "Radius of a ball of space.", "2", {.unit = "m", .range = above_0, .one_of = "radius|cylinder|min|max"}),
+    row<SpaceKeys, &SpaceKeys::cylinder>("cylinder", "An upright cylinder, its axis along y.", "{radius: 1, height: 3}", {.of = "cylinder", .one_of = "cylinder|radius|min|max"}),
+    row<SpaceKeys, &SpaceKeys::position>("position", "Centre of the ball or the cylinder.", "[0, 3, 0]", {.unit = "m", .one_of = "position|min|max", .spared_by = "cylinder", .with = "radius"}),
 };
 
 template <typename Keys> constexpr Field fixed_restitution = row<Keys, &Keys::restitution>("restitution", "Coefficient of restitution. Default: the moving body's.", "0.5", {.range = from_0});
@@ -332,8 +353,10 @@ constexpr Kind kinds_of_scenes[] = {
     {"member", "a", "The ball of a group.", member_fields, nullptr, "ball"},
     {"group", "a", "Many balls made by rule, without overlap, the same on every machine.", group_fields, nullptr,
      "group"},
-    {"in", "", "An axis-aligned box.", in_fields},
-    {"placed", "a", "The position and velocity of one of a group's balls.", placed_fields},
+    {"in", "", "An axis-aligned box, a ball or an upright cylinder.", in_fields},
+    {"radii", "", "A range of radii.", radii_fields},
+    {"mesh", "", "A mesh file with units and axes of its own.", mesh_fields},
+    {"placed", "a", "One of a group's balls: its position, and what it has for itself.", placed_fields},
     {"plane", "a", "An unbounded fixed surface, free on one side.", plane_fields, nullptr, "plane"},
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},

@@ -28,8 +28,9 @@ unique in a scene. An unknown or repeated key, an alias, an anchor, a tag, `<<`,
 
 Wherever a scene takes a number, a text that begins with `=` is an expression: `= r * sin(30)`. It has + - * / ^ %,
 parentheses, `pi`, names of `let`, indices of `repeat`, and the functions sqrt, abs, min, max, floor, sin, cos, tan, asin,
-acos and atan2. `a % b` has the sign of b. A name of a thing may contain expressions in braces: `'ball.{i + 1}'`. The
-word `none` in place of a value cancels that of `defaults`.
+acos, atan2, exp, log, rand and if. `a % b` has the sign of b. `rand(i)` is a number from 0 to below 1, by the scene's
+`seed` and the whole number i. `if(a < b, x, y)` is x or y; it compares by < <= > >= == !=. A name of a thing may
+contain expressions in braces: `'ball.{i + 1}'`. The word `none` in place of a value cancels that of `defaults`.
 
 In paths NAME stands for a name, and N for the index of a list's entry, from 0. A key in bold is needed, here or in
 `defaults`. Of bold keys that replace one another, one is needed.
@@ -54,7 +55,11 @@ string value_text(const Field& field) {
     case Type::part_or_flag:
       return "`true`, `false` or a map: " + link;
     case Type::color_or_part:
-      return "a colour (a CSS name, '#rgb', '#rrggbb' or [r, g, b], each 0 to 1) or a map: " + link;
+    case Type::file_or_part:
+    case Type::number_or_part: {
+      const string text = expected(field);
+      return text.substr(0, text.rfind(',')) + " or a map: " + link;
+    }
 
     case Type::named:
       return "by name: " + link;

@@ -9,6 +9,8 @@
 #include <fstream>
 
 #include "scene/check.h"
+#include "scene/fields.h"
+#include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "scene/view.h"
@@ -69,46 +71,84 @@ optional<Form> Forms::of(const VolumeKeys& thing, bool colored) {
   optional<Form> form = plain(thing);
   if (!form || !form->mesh || colored) return form;
   form->mesh->own_colors = true;
-  own_colors_.emplace(form->mesh->file, place_of(*thing.mesh));
+  own_colors_.emplace(form->mesh->file, place_of(*given(*thing.mesh)->file));
   return form;
 }
 
 optional<Form> Forms::plain(const VolumeKeys& thing) {
-  const Node* mesh = thing.mesh;
-  if (mesh != nullptr && mesh->bad) return nullopt;
-  if (thing.fit) return mesh == nullptr ? nullopt : fitted(*thing.fit, *mesh);
+  const Node* node = thing.mesh;
+  const optional<Given> mesh = node == nullptr ? nullopt : given(*node);
+  if (node != nullptr && !mesh) return nullopt;
+  if (thing.fit) return mesh ? fitted(*thing.fit, *mesh) : nullopt;
   const optional<Volume> volume = given_volume(thing);
-  if (!volume || mesh == nullptr) return volume ? optional(Form{*volume, nullopt}) : nullopt;
+  if (!volume || !mesh) return volume ? optional(Form{*volume, nullopt}) : nullopt;
   return drawn(*volume, *mesh);
 }
 
-/// The volume is the tightest one around the mesh. The mesh keeps its size.
-optional<Form> Forms::fitted(Shape shape, const Node& mesh) {
+optional<Forms::Given> Forms::given(const Node& mesh) {
+  if (mesh.bad) return nullopt;
+  if (!mesh.is_map()) return Given{&mesh, 1, no_turn};
+  const auto keys = filled<MeshKeys>(View(&mesh, kind_named("mesh"), mesh.place));
+  if (keys.file == nullptr || keys.file->bad || !keys.up) return nullopt;
+  return Given{keys.file, keys.scale, mesh_turn(*keys.up, keys.turn)};
+}
+
+/// The volume is the tightest one around the mesh. The mesh has its own size.
+optional<Form> Forms::fitted(Shape shape, const Given& mesh) {
   const optional<Fit> tight = fit(shape, mesh);
   if (!tight) return nullopt;
-  return Form{tight->volume, MeshUse{path_of(mesh), tight->center, 1}};
+  const Volume volume{shape, mesh.scale * tight->volume.half};
+  if (!check_size(volume, mesh)) return nullopt;
+  Form form = form_of(volume, mesh, *tight, mesh.scale);
+  form.mesh->is_volume = true;
+  return form;
 }
 
 /// The mesh is scaled so that its tightest volume of that shape lies in the given volume, with equal centres.
-optional<Form> Forms::drawn(const Volume& volume, const Node& mesh) {
+optional<Form> Forms::drawn(const Volume& volume, const Given& mesh) {
   const optional<Fit> tight = fit(volume.shape, mesh);
   if (!tight) return nullopt;
-  const double scale = (volume.half.array() / tight->volume.half.array()).minCoeff();
-  return Form{volume, MeshUse{path_of(mesh), tight->center, scale}};
+  return form_of(volume, mesh, *tight, (volume.half.array() / tight->volume.half.array()).minCoeff());
 }
 
-optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
-  const vector<Vec3>* vertices = points(mesh);
+Form Forms::form_of(const Volume& volume, const Given& mesh, const Fit& tight, double scale) const {
+  MeshUse use{path_of(*mesh.file), tight.center, scale};
+  use.turn = mesh.turn;
+  use.reach = volume.reach();
+  return {volume, std::move(use)};
+}
+
+/// Whether a run computes with a volume of this size. A scale may make it too small or too large.
+bool Forms::check_size(const Volume& volume, const Given& mesh) {
+  const Range limits = limited_range(*find_field(kind_named("cylinder"), "radius"));
+  for (const double size : {volume.half.minCoeff(), volume.half.maxCoeff()}) {
+    if (contains(limits, size)) continue;
+    diagnostics_.add(place_of(*mesh.file),
+                     fmt::format("the mesh {} has a size of {} m", in_backticks(mesh.file->text), size),
+                     limit_text(limits, "m"));
+    return false;
+  }
+  return true;
+}
+
+optional<Fit> Forms::fit(Shape shape, const Given& mesh) {
+  const vector<Vec3>* vertices = points(*mesh.file);
   if (vertices == nullptr) return nullopt;
-  const auto key = pair(path_of(mesh), shape);
+  array<double, 9> turn;
+  for (size_t k = 0; k < 9; ++k) turn[k] = mesh.turn[k / 3][ptrdiff_t(k % 3)];
+  const auto key = std::tuple(path_of(*mesh.file), shape, turn);
   if (const auto known = fits_.find(key); known != fits_.end()) return known->second;
+
+  vector<Vec3> own;
+  if (mesh.turn != no_turn)
+    for (const Vec3& vertex : *vertices) own.push_back(turned(mesh.turn, vertex));
 
   optional<Fit> tight;
   try {
-    tight = tightest(shape, *vertices);
+    tight = tightest(shape, own.empty() ? *vertices : own);
   } catch (const std::invalid_argument&) {
-    diagnostics_.add(place_of(mesh),
-                     fmt::format("the mesh {} is flat: its tightest {} has no volume", in_backticks(mesh.text),
+    diagnostics_.add(place_of(*mesh.file),
+                     fmt::format("the mesh {} is flat: its tightest {} has no volume", in_backticks(mesh.file->text),
                                  shape_names[size_t(shape)]),
                      "expected a mesh with width, height and depth");
   }
@@ -116,16 +156,16 @@ optional<Fit> Forms::fit(Shape shape, const Node& mesh) {
   return fits_.emplace(key, tight).first->second;
 }
 
-const vector<Vec3>* Forms::points(const Node& mesh) {
-  const string path = path_of(mesh);
+const vector<Vec3>* Forms::points(const Node& file) {
+  const string path = path_of(file);
   const auto [entry, is_new] = points_.try_emplace(path);
   if (!is_new) return entry->second.empty() ? nullptr : &entry->second;
   order_.push_back(path);
 
   const auto refuse = [&](const string& what) {
     const TextRemedy parts = fault_and_remedy(what);
-    diagnostics_.add(place_of(mesh),
-                     fmt::format("the mesh {} cannot be used: {}", in_backticks(mesh.text), parts.fault),
+    diagnostics_.add(place_of(file),
+                     fmt::format("the mesh {} cannot be used: {}", in_backticks(file.text), parts.fault),
                      parts.remedy.empty() ? "expected a file of triangles with finite vertices" : parts.remedy);
     return nullptr;
   };
@@ -151,8 +191,8 @@ const vector<Vec3>* Forms::points(const Node& mesh) {
   return &entry->second;
 }
 
-string Forms::path_of(const Node& mesh) const {
-  return std::filesystem::path(beneath(folder_, mesh.text)).lexically_normal().string();
+string Forms::path_of(const Node& file) const {
+  return std::filesystem::path(beneath(folder_, file.text)).lexically_normal().string();
 }
 
 vector<MeshFile> Forms::files(const string& film) const {

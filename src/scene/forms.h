@@ -1,6 +1,8 @@
 #pragma once
 // The volumes of bodies and obstacles. A mesh is drawn in place of a volume, or a volume is fitted around it.
 
+#include <tuple>
+
 #include "geometry/fit.h"
 #include "physics/volume.h"
 #include "scene/keys.h"
@@ -33,20 +35,33 @@ class Forms {
 
  private:
   optional<Form> plain(const VolumeKeys& thing);
-  optional<Form> fitted(Shape shape, const Node& mesh);
-  optional<Form> drawn(const Volume& volume, const Node& mesh);
-  const vector<Vec3>* points(const Node& mesh);
-  optional<Fit> fit(Shape shape, const Node& mesh);
-  string path_of(const Node& mesh) const;
+  /// A mesh as the scene gives it.
+  struct Given {
+    const Node* file;
+    double scale;  // m per unit of the file
+    MeshTurn turn;
+  };
+  /// None: it has an error, which was reported.
+  static optional<Given> given(const Node& mesh);
+
+  optional<Form> fitted(Shape shape, const Given& mesh);
+  optional<Form> drawn(const Volume& volume, const Given& mesh);
+  Form form_of(const Volume& volume, const Given& mesh, const Fit& tight, double scale) const;
+  bool check_size(const Volume& volume, const Given& mesh);
+  const vector<Vec3>* points(const Node& file);
+  /// The tightest volume of the turned mesh, in the file's own units.
+  optional<Fit> fit(Shape shape, const Given& mesh);
+  string path_of(const Node& file) const;
 
   string folder_;
   const LoadOptions& options_;
   Diagnostics& diagnostics_;
   /// By path. Empty: unusable.
   map<string, vector<Vec3>> points_;
-  map<pair<string, Shape>, optional<Fit>> fits_;  // none: unusable
-  vector<string> order_;                          // paths
-  map<string, Place> own_colors_;                 // first uses of meshes with the file's colours
+  /// By path, shape and turn. None: unusable.
+  map<std::tuple<string, Shape, array<double, 9>>, optional<Fit>> fits_;
+  vector<string> order_;           // paths
+  map<string, Place> own_colors_;  // first uses of meshes with the file's colours
 };
 
 }  // namespace carom

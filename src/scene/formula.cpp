@@ -8,7 +8,9 @@
 #include <numbers>
 
 #include "numerics/degrees.h"
+#include "numerics/elementary.h"
 #include "numerics/power.h"
+#include "numerics/random.h"
 #include "scene/fields.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
@@ -20,10 +22,10 @@ namespace carom {
 /// An operator between two numbers, or a function.
 struct Formula::Operation {
   string_view name;
-  size_t arguments;  // 0: one or more
-  double (*value)(span<const double> of);
-  string_view noun = {};  // of an operator's result
-  int precedence = 0;     // of an operator
+  size_t arguments;                        // 0: one or more
+  double (*value)(span<const double> of);  // null: a number drawn by the seed
+  string_view noun = {};                   // of an operator's result
+  int precedence = 0;                      // of an operator
 };
 
 namespace {
@@ -32,6 +34,7 @@ using Numbers = span<const double>;
 using Operation = Formula::Operation;
 
 constexpr size_t deepest = 64;  // parentheses in one another
+constexpr string_view if_word = "if", if_form = "if(a < b, x, y)";
 
 /// Thrown without its place, which value() knows.
 [[noreturn]] double refuse(string message, string remedy) {
@@ -71,6 +74,18 @@ double ratio(double value, string_view name) {
              : refuse(fmt::format("no angle has the {} {}", name, value), "expected a number from -1 to 1");
 }
 
+double log_of(Numbers x) {
+  return x[0] > 0 ? logarithm(x[0]) : refuse(fmt::format("the logarithm of {}", x[0]), "expected a number above 0");
+}
+
+/// The number i of the scene's stream of this name. 0 <= u < 1.
+double drawn(optional<uint64_t> seed, double i) {
+  if (floor(i) != i || std::abs(i) > 0x1p53)
+    refuse(fmt::format("rand of {}", i), "expected a whole number, up to 2^53, such as an index: rand(i)");
+  if (!seed) refuse("`rand` draws by the seed, which is an expression", "expected a number after `seed`");
+  return Random(*seed, "rand").skip(uint64_t(int64_t(i))).uniform();
+}
+
 constexpr Operation functions[] = {
     {"sqrt", 1, root_of},
     {"abs", 1, [](Numbers x) { return std::abs(x[0]); }},
@@ -83,6 +98,19 @@ constexpr Operation functions[] = {
     {"asin", 1, [](Numbers x) { return arc_sine_degrees(ratio(x[0], "sine")); }},
     {"acos", 1, [](Numbers x) { return arc_cosine_degrees(ratio(x[0], "cosine")); }},
     {"atan2", 2, [](Numbers x) { return arc_tangent_degrees(x[0], x[1]); }},
+    {"exp", 1, [](Numbers x) { return exponential(x[0]); }, "exponential"},
+    {"log", 1, log_of},
+    {"rand", 1, nullptr},
+};
+
+/// Between the two numbers of a condition.
+constexpr Operation comparisons[] = {
+    {"<", 2, [](Numbers x) { return x[0] < x[1] ? 1.0 : 0.0; }},
+    {"<=", 2, [](Numbers x) { return x[0] <= x[1] ? 1.0 : 0.0; }},
+    {">", 2, [](Numbers x) { return x[0] > x[1] ? 1.0 : 0.0; }},
+    {">=", 2, [](Numbers x) { return x[0] >= x[1] ? 1.0 : 0.0; }},
+    {"==", 2, [](Numbers x) { return x[0] == x[1] ? 1.0 : 0.0; }},
+    {"!=", 2, [](Numbers x) { return x[0] != x[1] ? 1.0 : 0.0; }},
 };
 
 constexpr int highest = 3;  // precedence; its operators group from the right
@@ -109,7 +137,7 @@ bool is_name_character(char c) {
 }
 
 struct Token {
-  char sort;  // '0' of a number, 'a' of a name, 0 at the end, otherwise the character itself
+  char sort;  // '0' of a number, 'a' of a name, '<' of a comparison, 0 at the end, otherwise the character itself
   size_t at, length = 1;
   double value = 0;  // of a number
 };
@@ -153,12 +181,23 @@ class Reader {
 
     ++at_;
     if (string_view("(),").find(c) != string_view::npos || find(operators, text_.substr(at, 1))) return {c, at};
+    for (const size_t length : {2, 1}) {
+      if (find(comparisons, text_.substr(at, length)) == nullptr) continue;
+      at_ = at + length;
+      return {'<', at, length};
+    }
+    fail_at_sign(at);
+  }
+
+  [[noreturn]] void fail_at_sign(size_t at) {
     while (at_ < text_.size() && (text_[at_] & 0xC0) == 0x80) ++at_;  // the rest of a character
-    const Token token{c, at, at_ - at};
-    const bool compares = string_view("<>=!&|?:").find(c) != string_view::npos;
+    const Token token{text_[at], at, at_ - at};
+    const string_view decides = "!&|?:";
     fail(token, fmt::format("{} in an expression", in_backticks(of(token))),
-         compares ? "expressions have no comparisons and no assignments"
-                  : "expected numbers, names, + - * / ^ %, parentheses and functions");
+         token.sort == '=' ? fmt::format("equality is ==, in the condition of {}", if_form)
+         : decides.find(token.sort) != string_view::npos
+             ? fmt::format("one condition decides, as in {}; `if` may stand in `if`", if_form)
+             : "expected numbers, names, + - * / ^ %, parentheses and functions");
   }
 
   Token number() {
@@ -238,12 +277,15 @@ class Reader {
     if (after_.sort == ',')
       fail(after_, "a comma outside of a function's arguments", "the decimal point is a point: 1.5, not 1,5");
     if (after_.sort == ')') fail(after_, "this parenthesis was not opened", "remove it");
+    if (after_.sort == '<')
+      fail(after_, "a comparison outside of a condition", fmt::format("expected one comparison, as in {}", if_form));
     fail(after_, fmt::format("an operator is missing before {}", in_backticks(of(after_))),
          "a product is written with *, as in 2 * r");
   }
 
   void name(const Token& token) {
     const string_view name = of(token);
+    if (name == if_word) return choice(token);
     if (const Operation* function = find(functions, name)) return arguments(*function, token);
     if (name == "pi") return steps.push_back({token.at, token.length, std::numbers::pi});
 
@@ -273,10 +315,7 @@ class Reader {
   }
 
   void arguments(const Operation& function, const Token& token) {
-    const Token open = next();
-    if (open.sort != '(')
-      fail(token, fmt::format("{} without parentheses", in_backticks(function.name)),
-           fmt::format("expected {}(...)", function.name));
+    const Token open = opening(token, fmt::format("{}(...)", function.name));
     const size_t count = parentheses(open, &token), takes = function.arguments;
     if (takes != 0 && takes != count)
       fail(token, fmt::format("{} has {} argument{}", in_backticks(function.name), count, count == 1 ? "" : "s"),
@@ -284,11 +323,73 @@ class Reader {
     call(function, token, count);
   }
 
-  /// Reads the arguments of a function, or one expression. Returns their number.
-  size_t parentheses(const Token& open, const Token* function = nullptr) {
+  /// Reads the parenthesis after a function's name. `form`: of a call.
+  Token opening(const Token& function, const string& form) {
+    const Token open = next();
+    if (open.sort != '(')
+      fail(function, fmt::format("{} without parentheses", in_backticks(of(function))),
+           fmt::format("expected {}", form));
+    return open;
+  }
+
+  void descend(const Token& open) {
     if (++depth_ > deepest)
       fail(open, fmt::format("parentheses are nested more than {} deep", deepest),
            "expected fewer: give names to parts in `let`");
+  }
+
+  /// Reads if(a < b, x, y). The steps are those of the condition, of x and of y, with skips between them.
+  void choice(const Token& token) {
+    const Token open = opening(token, string(if_form));
+    descend(open);
+    if (ahead() == ')') fail(token, "`if` has no argument", fmt::format("expected {}", if_form));
+
+    // The condition.
+    expression(1);
+    const Operation* comparison = after_.sort == '<' ? find(comparisons, of(after_)) : nullptr;
+    if (comparison == nullptr && (after_.sort == ',' || after_.sort == ')'))
+      fail(token, "`if` has no comparison", fmt::format("expected < <= > >= == or != first, as in {}", if_form));
+    if (comparison == nullptr) end_of_argument(open, token);
+    const Token sign = after_;
+    expression(1);
+    call(*comparison, sign, 2);
+    end_of_argument(open, token, ',');
+
+    // Each branch, whose skip leads behind it.
+    const size_t unless = skip(token, true);
+    expression(1);
+    end_of_argument(open, token, ',');
+    const size_t otherwise = skip(token, false);
+    steps[unless].skips = steps.size() - unless - 1;
+    expression(1);
+    end_of_argument(open, token, ')');
+    steps[otherwise].skips = steps.size() - otherwise - 1;
+    --depth_;
+  }
+
+  /// Adds a skip of a length that is not known yet. Returns its number.
+  size_t skip(const Token& token, bool is_condition) {
+    steps.push_back({token.at, token.length, 0, {}, nullptr, 0, 1, is_condition});
+    return steps.size() - 1;
+  }
+
+  /// An argument of `if` has been read. Fails unless `sort` is behind it.
+  void end_of_argument(const Token& open, const Token& token, char sort = 0) const {
+    if (sort != 0 && after_.sort == sort) return;
+    if (after_.sort == 0) fail_unclosed(open);
+    if (after_.sort == ',' || after_.sort == ')')
+      fail(token, fmt::format("`if` has {} arguments than three", after_.sort == ',' ? "more" : "fewer"),
+           fmt::format("expected {}", if_form));
+    fail_after_operand();
+  }
+
+  [[noreturn]] static void fail_unclosed(const Token& open) {
+    fail(open, "this parenthesis is not closed", "expected `)`; an expression with a comma needs quotes in a list");
+  }
+
+  /// Reads the arguments of a function, or one expression. Returns their number.
+  size_t parentheses(const Token& open, const Token* function = nullptr) {
+    descend(open);
     if (ahead() == ')' && function != nullptr)
       fail(*function, fmt::format("{} has no argument", in_backticks(of(*function))),
            "expected a number between the parentheses");
@@ -296,8 +397,7 @@ class Reader {
 
     size_t count = 1;
     for (expression(1); after_.sort == ',' && function != nullptr; expression(1)) ++count;
-    if (after_.sort == 0)
-      fail(open, "this parenthesis is not closed", "expected `)`; an expression with a comma needs quotes in a list");
+    if (after_.sort == 0) fail_unclosed(open);
     if (after_.sort != ')') fail_after_operand();
     --depth_;
     return count;
@@ -324,9 +424,20 @@ FormulaError Formula::at_name(size_t name, string message, string remedy) const 
   return {step.at, step.length, std::move(message), std::move(remedy)};
 }
 
-double Formula::value(span<const double> values) const {
+bool Formula::draws() const {
+  return any_of(steps_, [](const Step& step) { return step.operation != nullptr && step.operation->value == nullptr; });
+}
+
+double Formula::value(span<const double> values, optional<uint64_t> seed) const {
   vector<double> stack;
-  for (const Step& step : steps_) {
+  for (size_t at = 0; at < steps_.size(); ++at) {
+    const Step& step = steps_[at];
+    if (step.skips > 0) {
+      if (!step.is_condition || stack.back() == 0) at += step.skips;
+      if (step.is_condition) stack.pop_back();
+      continue;
+    }
+
     if (step.operation == nullptr) {
       stack.push_back(step.name ? values[*step.name] : step.number);
       continue;
@@ -334,7 +445,8 @@ double Formula::value(span<const double> values) const {
 
     const size_t first = stack.size() - step.arguments;
     try {
-      const double result = step.operation->value(span(stack).subspan(first));
+      const double result = step.operation->value == nullptr ? drawn(seed, stack[first])
+                                                             : step.operation->value(span(stack).subspan(first));
       if (!isfinite(result))
         refuse(fmt::format("this {} makes a number too large for a double", step.operation->noun),
                "the largest is about 1.8e308");
@@ -353,11 +465,12 @@ double Formula::value(span<const double> values) const {
 vector<string_view> formula_functions() {
   vector<string_view> names;
   for (const Operation& function : functions) names.push_back(function.name);
+  names.push_back(if_word);
   return names;
 }
 
 bool is_formula_word(string_view name) {
-  return name == "pi" || find(functions, name) != nullptr;
+  return name == "pi" || name == if_word || find(functions, name) != nullptr;
 }
 
 }  // namespace carom

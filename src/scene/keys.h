@@ -22,13 +22,21 @@ struct CylinderKeys {
   optional<double> height;  // m, along y
 };
 
+/// A mesh file, and how it is turned and scaled.
+struct MeshKeys {
+  const Node* file = nullptr;
+  double scale = 1;  // m per unit of the file
+  optional<UpAxis> up = UpAxis::y;
+  Vec3 turn = Vec3(0, 0, 0);  // degrees about x, then y, then z
+};
+
 /// A volume is one of the first four. A mesh is drawn in its place, or `fit` is the volume around the mesh.
 struct VolumeKeys {
   optional<double> radius;  // m
   optional<CylinderKeys> cylinder;
   optional<Vec3> box;  // m, full edge lengths
   optional<Shape> fit;
-  const Node* mesh = nullptr;  // a file
+  const Node* mesh = nullptr;  // a file, or a map of MeshKeys
 };
 
 /// A colour, or the rule that makes one from a quantity.
@@ -53,12 +61,26 @@ struct BoxKeys {
   optional<Vec3> min, max;  // m
 };
 
+/// Where the balls of a group lie: a box, a ball or a cylinder.
+struct SpaceKeys : BoxKeys {
+  optional<double> radius;  // m
+  optional<CylinderKeys> cylinder;
+  Vec3 position = Vec3(0, 0, 0);  // m, of a ball or a cylinder
+};
+
+/// The radii of a group's balls, each drawn by the seed.
+struct RadiiKeys {
+  optional<double> from, to;  // m
+};
+
 enum class Arrange : uint8_t { random, lattice, hexagonal };
 
 /// A ball of a group that lists its balls.
 struct PlacedKeys {
   optional<Vec3> position;  // m
   optional<Vec3> velocity;  // m/s; none: that of the group's ball
+  optional<double> radius;  // m; none: that of the group's ball
+  optional<double> mass;    // kg; none: that of the group's ball, or by its density
 };
 
 /// The former run from which bodies begin.
@@ -67,9 +89,13 @@ struct StartKeys {
   optional<double> at;   // s of that run; none: its end
 };
 
+/// What happens to balls of a group that overlap at time 0.
+enum class OverlapRule : uint8_t { refuse, push };
+
 struct GroupKeys {
   uint64_t count = 0;
-  BoxKeys in;
+  const Node* table = nullptr;  // a file
+  SpaceKeys in;
   optional<Arrange> arrange = Arrange::random;
   optional<double> speed;   // m/s, standard deviation of a component
   optional<Vec3> velocity;  // m/s; none: that of the group's ball
@@ -77,6 +103,7 @@ struct GroupKeys {
   optional<double> rate;    // 1/s; none: all at once
   double from = 0;          // s, of the first one at this rate
   optional<double> until;   // s; none: the run's end
+  optional<OverlapRule> overlap;
 };
 
 /// A window of time in which a fixed thing moves.

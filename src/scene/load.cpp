@@ -16,6 +16,7 @@
 #include "scene/scene.h"
 #include "scene/settings.h"
 #include "scene/start.h"
+#include "scene/table.h"
 #include "std.h"
 #include "yaml/document.h"
 #include "yaml/values.h"
@@ -37,6 +38,12 @@ void check_length(const Inventory& inventory, const Scene& scene, const Key* sta
                                        scene.resolved.size(), max_source_bytes),
                            "expected fewer bodies");
 
+  for (const BodyEntry& body : inventory.bodies)
+    if (body.group && body.view.given("members") != nullptr)
+      return diagnostics.add(body.view.place("members"),
+                             fmt::format("with the balls of {} the scene has {} bytes; the limit is {}",
+                                         in_backticks(body.key->text), scene.resolved.size(), max_source_bytes),
+                             "expected fewer balls");
   if (inventory.families.empty()) return;
 
   // The first repeated thing.
@@ -101,11 +108,12 @@ struct SceneFile::Impl {
     return resolve(tree, diagnostics);
   }
 
-  Scene resolve(Node& tree, Diagnostics& diagnostics) const {
+  Scene resolve(Node& tree, Diagnostics& diagnostics) {
     const string folder = folder_of(path);
     Scene scene;
 
-    scene.made_from.expressions = expand(tree, options.budget, diagnostics);
+    scene.made_from.expressions = expand(tree, options.seed, options.budget, diagnostics);
+    apply_tables(tree, folder, sources, scene.made_from, diagnostics);
     check_scene(tree, folder, diagnostics);
     apply_start(tree, folder, options, scene.made_from, diagnostics);
 
@@ -183,7 +191,7 @@ struct SceneFile::Impl {
 
   string path;
   LoadOptions options;
-  // The file, then one for each setting.
+  // The file, then one for each setting and each table.
   vector<Source> sources;
   /// Errors of the text after which parsing could continue.
   Diagnostics parsing;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "physics/world.h"
+#include "scene/push.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -42,13 +43,21 @@ class Overlaps {
     for (const Found& found : found_)
       diagnostics_.add(found.place, message(found),
                        is_behind(found) ? "expected it on the side that the normal points to"
-                                        : "expected bodies apart, or just touching");
+                                        : "expected bodies apart, or just touching" + push_text(found));
   }
 
  private:
   bool is_behind(const Found& found) const {
     return world_.is_plane(found.other) &&
            found.depth > 2 * world_.volume_of(found.later).support(world_.plane(found.other).normal);
+  }
+
+  /// What may help a ball of a group that lists its balls.
+  string push_text(const Found& found) const {
+    const auto is_of_group = [&](Entity e) { return world_.is_body(e) && scene_.roster.range_of(e).group; };
+    if (!is_of_group(found.later) && !is_of_group(found.other)) return "";
+    return fmt::format("\n`overlap: push` of a group moves apart what overlaps by less than {} of the smaller radius",
+                       most_pushed);
   }
 
   string message(const Found& found) const {
@@ -67,7 +76,9 @@ class Overlaps {
       for (const Entity entity : {found.later, found.other})
         if (entity < world_.body_count()) bodies.insert(entity);
     const bool some_left_out = found_.size() > max_overlaps_kept;
-    string remedy = fmt::format("expected bodies apart, or just touching to {} of the smaller one", rounding_of_places);
+    string remedy =
+        fmt::format("expected bodies apart, or just touching to {} of the smaller one", rounding_of_places) +
+        push_text(deepest);
     if (const double share = common_share(); share < 1) {
       // Rounded up to two digits, so that radii with these digits do.
       const double digit = pow(10, floor(std::log10(share)) - 1);

@@ -4,6 +4,8 @@
 // All random numbers come from one stream in a fixed order, so the placement is the same on every machine.
 #include "scene/placement.h"
 
+#include <numeric>
+
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "std.h"
@@ -104,11 +106,15 @@ struct Hexagonal {
 class Placer {
  public:
   Placer(const Placing& placing, const World& world, const BodyGrid& others, Random& random)
-      : p_(placing), world_(world), others_(others), random_(random), edge_(placing.max - placing.min) {}
+      : p_(placing), world_(world), others_(others), random_(random), edge_(placing.max - placing.min) {
+    order_.resize(p_.count);
+    std::iota(order_.begin(), order_.end(), Entity{0});
+    ranges::stable_sort(order_, [&](Entity a, Entity b) { return p_.radii[a] > p_.radii[b]; });
+  }
 
   Placed run() {
     if (p_.count == 0) return {};
-    if ((edge_.array() < 2 * p_.radius * (1 - 1e-12)).any()) return {};
+    if ((edge_.array() < 2 * largest() * (1 - 1e-12)).any()) return {};
     if (p_.arrange == Arrange::lattice) return thin<Lattice>();
     if (p_.arrange == Arrange::hexagonal) return thin<Hexagonal>();
     Placed placed = one_by_one();
@@ -116,49 +122,80 @@ class Placer {
   }
 
  private:
-  bool is_free(const Vec3& center) const {
-    return touches_no_surface(world_, p_.first, center) && !others_.find_overlap({center, p_.radius, p_.first});
+  double largest() const { return p_.radii[order_.front()]; }
+
+  /// Whether the ball lies inside the round surface of the space. Its box is kept by construction.
+  bool is_inside(const Vec3& center, double radius) const {
+    if (p_.space.shape == Shape::box) return true;
+    Vec3 d = center - p_.center;
+    if (p_.space.shape == Shape::cylinder) d.y() = 0;
+    return d.norm() <= (p_.space.half.x() - radius) * (1 + 1e-12);
+  }
+
+  /// Whether this ball of the group may lie there, as far as things outside the group are concerned.
+  bool is_free(const Vec3& center, Entity ball) const {
+    const Entity body = p_.first + ball;
+    return is_inside(center, p_.radii[ball]) && touches_no_surface(world_, body, center) &&
+           !others_.find_overlap({center, p_.radii[ball], body});
+  }
+  /// Whether the largest ball may.
+  bool is_free(const Vec3& center) const { return is_free(center, order_.front()); }
+
+  /// The volume of all balls (m^3).
+  double volume_of_balls() const {
+    const auto volume = [](double radius) { return (4.0 / 3 * 3.14159265358979324) * radius * radius * radius; };
+    const bool alike = p_.radii[order_.back()] == largest();
+    double sum = 0;
+    for (size_t i = 0; i < p_.count && !alike; ++i) sum += volume(p_.radii[i]);
+    return alike ? double(p_.count) * volume(largest()) : sum;
   }
 
   /// Random sequential addition. It gives up where the free volume is too small to be found by chance.
   Placed one_by_one() {
-    const double volume = edge_.x() * edge_.y() * edge_.z();
-    const double balls = double(p_.count) * (4.0 / 3 * 3.14159265358979324) * p_.radius * p_.radius * p_.radius;
+    const bool is_round = p_.space.shape != Shape::box;
+    const double volume = is_round ? p_.space.size() : edge_.x() * edge_.y() * edge_.z();
     // Random sequential addition saturates at 0.384.
     const bool apart = may_meet(world_, p_.first, p_.first);
-    if (apart && balls > 0.36 * volume && p_.count > 8) return {};
+    if (apart && volume_of_balls() > 0.36 * volume && p_.count > 8) return {};
 
-    const Vec3 low = p_.min.array() + p_.radius;
-    const Vec3 free = (edge_.array() - 2 * p_.radius).max(0.0);
-    uint64_t tries = 10'000 + 40 * p_.count;
+    // Of the places in the box around a sphere nearly half lie outside.
+    uint64_t tries = (10'000 + 40 * p_.count) * (is_round ? 2 : 1);
 
     BodyGrid grid(apart ? nullptr : &world_);
     grid.reserve(p_.count);
     Placed placed;
-    placed.centers.reserve(p_.count);
+    placed.centers.resize(p_.count);
 
-    const auto draw = [&](Random& random) {
+    const auto draw = [](Random& random) {
       // One call a statement, because the compiler chooses the order of evaluation inside an expression.
-      Vec3 center;
-      for (int k = 0; k < 3; ++k) center[k] = low[k] + random.uniform() * free[k];
-      return center;
+      Vec3 share;
+      for (int k = 0; k < 3; ++k) share[k] = random.uniform();
+      return share;
+    };
+    const auto at = [&](const Vec3& share, double radius) {
+      const Vec3 low = p_.min.array() + radius, free = (edge_.array() - 2 * radius).max(0.0);
+      return Vec3(low.array() + share.array() * free.array());
     };
     // Most of the time is spent waiting for memory. A copy of the random stream runs ahead and prefetches.
     constexpr uint64_t far = 16, near = 8;
     Random ahead = random_;
     array<Vec3, far> coming;
-    for (Vec3& center : coming) center = draw(ahead);
+    for (Vec3& share : coming) share = draw(ahead);
 
-    for (uint64_t next = 0; placed.centers.size() < p_.count; ++next) {
+    size_t done = 0;
+    for (uint64_t next = 0; done < p_.count; ++next) {
       if (tries-- == 0) return {};
-      const Vec3 center = draw(random_);
+      const Entity ball = order_[done];
+      const double radius = p_.radii[ball];
+      const Vec3 center = at(draw(random_), radius);
       coming[next % far] = draw(ahead);
-      grid.prefetch({coming[next % far], p_.radius, p_.first}, BodyGrid::Prefetch::cells);
-      grid.prefetch({coming[(next + near) % far], p_.radius, p_.first}, BodyGrid::Prefetch::members);
+      grid.prefetch({at(coming[next % far], radius), radius, p_.first}, BodyGrid::Prefetch::cells);
+      grid.prefetch({at(coming[(next + near) % far], radius), radius, p_.first}, BodyGrid::Prefetch::members);
 
-      if (grid.find_overlap({center, p_.radius, p_.first}) || !is_free(center)) continue;
-      grid.insert({center, p_.radius, p_.first});
-      placed.centers.push_back(center);
+      if (grid.find_overlap({center, radius, p_.first}) || !is_free(center, ball)) continue;
+      grid.insert({center, radius, p_.first});
+      placed.centers[ball] = center;
+      ++done;
     }
     return placed;
   }
@@ -167,7 +204,7 @@ class Placer {
   template <typename Sites>
   vector<Vec3> free_sites(double& spacing) const {
     // Find the widest spacing by bisection, ignoring obstructions.
-    const double closest = 2 * p_.radius;
+    const double closest = 2 * largest();
     const auto count = double(p_.count);
     double wide = edge_.maxCoeff() * 2;
     spacing = closest;
@@ -221,6 +258,13 @@ class Placer {
   Placed jittered() const {
     double spacing = 0;
     vector<Vec3> sites = free_sites<Hexagonal>(spacing);
+    // A narrow tube holds more balls one above the other than in layers that are shifted.
+    if (sites.size() < p_.count && p_.space.shape != Shape::box) {
+      double of_cells = 0;
+      vector<Vec3> cells = free_sites<Lattice>(of_cells);
+      if (cells.size() > sites.size()) spacing = of_cells, sites = std::move(cells);
+    }
+
     Placed placed;
     if (sites.size() < p_.count) {
       placed.fit = sites.size();
@@ -228,8 +272,8 @@ class Placer {
     }
     // The displacement lies in a cube inside the sphere of half the gap.
     // Two neighbours that move towards one another then stay apart.
-    const double half = max(0.0, (spacing / 2 - p_.radius) / root3 * (1 - 1e-9));
-    const Vec3 low = p_.min.array() + p_.radius, high = p_.max.array() - p_.radius;
+    const double half = max(0.0, (spacing / 2 - largest()) / root3 * (1 - 1e-9));
+    const Vec3 low = p_.min.array() + largest(), high = p_.max.array() - largest();
     for (uint64_t k = 0; k < p_.count; ++k) {
       std::swap(sites[k], sites[k + random_.below(sites.size() - k)]);
       Vec3 moved = sites[k];
@@ -247,6 +291,7 @@ class Placer {
   const BodyGrid& others_;
   Random& random_;
   Vec3 edge_;
+  vector<Entity> order_;  // balls, the largest first
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Places the balls of a group.
 
 #include "physics/entity.h"
+#include "physics/volume.h"
 #include "scene/grid.h"
 #include "scene/keys.h"
 #include "numerics/random.h"
@@ -11,10 +12,13 @@ namespace carom {
 
 struct Placing {
   uint64_t count = 0;
-  /// First ball of the group. All are alike.
+  /// First ball of the group.
   Entity first = 0;
-  double radius = 0;  // m
-  Vec3 min, max;      // m, the box that contains every ball entirely
+  span<const double> radii;  // m, by ball
+  /// The space that contains every ball entirely.
+  Volume space;
+  Vec3 center;    // m, of the space
+  Vec3 min, max;  // m, the box around it
   Arrange arrange = Arrange::random;
 };
 
@@ -27,8 +31,9 @@ struct Placed {
 /// Places balls clear of one another, of `others` (bodies and obstacles) and of the world's planes and walls.
 /// - lattice: cubic, the box cut into equal cells.
 /// - hexagonal: close-packed layers (ABAB along y) of the widest spacing that holds the count, centred.
-/// - random: one ball after the other, anywhere that is free.
-/// A lattice or hexagonal arrangement with more sites than balls leaves sites out evenly.
+/// - random: one ball after the other, the largest first, anywhere that is free.
+/// A lattice or hexagonal arrangement with more sites than balls leaves sites out evenly. Each site has room for the
+/// largest ball. In a sphere or cylinder the sites are those of the box around it that lie inside.
 /// Above about a third of the volume, random placement finds no more room.
 /// It then takes a random choice of hexagonal sites and moves each ball at random within its site.
 Placed place(const Placing& placing, const World& world, const BodyGrid& others, Random& random);

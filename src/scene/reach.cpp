@@ -102,7 +102,9 @@ class Reach {
 
   /// The velocity (m/s) that an impulse gives to a body.
   Vec3 kick_of(const BodyEntry& body) const {
-    return world_.impulse.empty() ? Vec3(Vec3::Zero()) : Vec3(world_.impulse[body.first] / world_.mass[body.first]);
+    if (world_.impulse.empty()) return Vec3::Zero();
+    const double lightest = ranges::min(span(world_.mass).subspan(body.first, body.count));
+    return world_.impulse[body.first] / lightest;
   }
 
   void check_speed(const BodyEntry& body) {

@@ -100,11 +100,17 @@ class Resolver {
   }
 
   /// Sets the key `mesh` to the copy in the run's folder, or to the absolute path of a file without a copy.
-  void name_copy(const optional<MeshUse>& mesh, Overrides& overrides) const {
+  void name_copy(const View& view, const optional<MeshUse>& mesh, Overrides& overrides) const {
     for (const MeshFile& file : scene_.meshes) {
       if (!mesh || mesh->file != file.file) continue;
-      overrides["mesh"] = in_quotes(file.copy.empty() ? std::filesystem::absolute(file.file).string() : file.copy);
+      const string name = file.copy.empty() ? std::filesystem::absolute(file.file).string() : file.copy;
+      overrides["mesh"] = mesh_text(view, in_quotes(name));
     }
+  }
+
+  /// The value of `mesh` with another file, in quotes.
+  static string mesh_text(const View& view, const string& file) {
+    return view.find("mesh")->is_map() ? flow(view.part("mesh"), {{"file", file}}) : file;
   }
 
   void bodies(string_view key, string_view kind) {
@@ -118,7 +124,7 @@ class Resolver {
 
       if (each.find("restitution") == nullptr) overrides["restitution"] = default_restitution();
       add_color(each, scene_.roster.bodies[i].color, scene_.roster.bodies[i].mesh, overrides);
-      name_copy(scene_.roster.bodies[i].mesh, overrides);
+      name_copy(each, scene_.roster.bodies[i].mesh, overrides);
 
       if (!body.group) {
         entry(body.key->text, flow(each, overrides));
@@ -161,9 +167,12 @@ class Resolver {
   Overrides whole_paths(const View& view) const {
     Overrides overrides;
     for (const Field& field : view.kind().fields) {
-      const Node* file = field.type == Type::file ? view.find(field) : nullptr;
-      if (file != nullptr)
-        overrides[field.key] = in_quotes(std::filesystem::absolute(beneath(folder_, file->text)).string());
+      const bool is_file = field.type == Type::file, is_mesh = field.type == Type::file_or_part;
+      const Node* file = is_file || is_mesh ? view.find(field) : nullptr;
+      if (file != nullptr && file->is_map()) file = file->find("file");
+      if (file == nullptr) continue;
+      const string name = in_quotes(std::filesystem::absolute(beneath(folder_, file->text)).string());
+      overrides[field.key] = is_mesh ? mesh_text(view, name) : name;
     }
     return overrides;
   }
@@ -183,7 +192,7 @@ class Resolver {
     add_color(view, known.color, known.mesh, overrides);
     if (view.kind().name == "wall" && view.find("up") == nullptr)
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
-    name_copy(known.mesh, overrides);
+    name_copy(view, known.mesh, overrides);
     return flow(view, overrides);
   }
 

@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/former_state.h"
+#include "scene/mesh_turn.h"
 #include "scene/output.h"
 #include "scene/overlay.h"
 #include "scene/simulate_settings.h"
@@ -14,12 +15,18 @@
 
 namespace carom {
 
-/// A mesh drawn in place of a volume. A vertex p of the file is drawn at position + scale * (p - center).
+/// A mesh drawn in place of a volume. A vertex p of the file is drawn at position + scale * (turn * p - center).
 struct MeshUse {
   string file;                 // relative to the working folder
-  Vec3 center = Vec3::Zero();  // in the file's own units
+  Vec3 center = Vec3::Zero();  // of the turned mesh, in the file's own units
   double scale = 1;            // m per unit of the file
   bool own_colors = false;     // the scene gives no colour: those of the file, where it has any
+  MeshTurn turn = no_turn;
+  double reach = 0;        // m, of the volume that `scale` is for; 0: of any
+  bool is_volume = false;  // the volume is the one around it (`fit`)
+
+  /// The scale for a ball of a group whose balls have radii of their own (m).
+  double scale_for(double radius) const { return reach > 0 ? scale * (radius / reach) : scale; }
   friend bool operator==(const MeshUse&, const MeshUse&) = default;
 };
 
@@ -145,6 +152,8 @@ struct MadeFrom {
   /// The texts of expressions in the file, by their paths (expand.h).
   map<string, string> expressions{};
   optional<StartedFrom> start{};
+  /// The files of `table`, relative to the working folder.
+  vector<string> tables{};
   /// Sentences on the start that the author may not expect.
   vector<string> notes{};
 };

@@ -38,6 +38,7 @@ class Flattener {
 
     switch (facts.inside) {
       case Inside::map:
+        if (!is_map) break;
         return map(path, node, *field.held);
       case Inside::named:
         if (!is_map) break;

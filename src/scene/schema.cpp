@@ -98,7 +98,7 @@ Json numbers_schema(const Field& field) {
 Json text_schema(const Field& field) {
   if (!field.pattern.empty()) return {{"type", "string"}, {"pattern", field.pattern}};
   Json schema = {{"type", {"string", "number", "boolean"}}, {"maxLength", longest_text}};
-  if (field.type == Type::file) schema["minLength"] = 1;
+  if (field.type == Type::file || field.type == Type::file_or_part) schema["minLength"] = 1;
   schema["not"] = {{"type", "string"}, {"pattern", control_characters}};
   return schema;
 }
@@ -170,6 +170,11 @@ Json list_schema(const Field& field) {
   return schema;
 }
 
+/// A value that stands in place of a map.
+Json value_for_part(const Field& field) {
+  return field.type == Type::file_or_part ? text_schema(field) : number_schema(limited_range(field));
+}
+
 Json value_schema(const Field& field) {
   switch (field.type) {
     // Single values.
@@ -212,6 +217,10 @@ Json value_schema(const Field& field) {
       return either(reference("color"), cancelled());
     case Type::color_or_part:
       return either(reference("color"), reference(field.of));
+
+    case Type::number_or_part:
+    case Type::file_or_part:
+      return either(value_for_part(field), reference(field.of));
     case Type::two_names:
       return array_schema(text_schema(field), 2);
     case Type::names:
@@ -459,7 +468,13 @@ Json root_rules(const Kind& root) {
     const auto each = [&](Json schema) { return at(field.key, {{"additionalProperties", std::move(schema)}}); };
     add_rules(kind, each, rules);
     for (const Field& part : kind.fields) {
-      if (is_part_with_defaults(part)) add_part_rules(kind, part, each, rules);
+      if (!is_part_with_defaults(part)) continue;
+      // Where the part may be absent, it need not be complete either.
+      const vector<string_view> sparing = parts_of(part.spared_by);
+      const auto spared = [&](Json schema) {
+        return each(sparing.empty() ? std::move(schema) : either(one_required(kind, sparing), std::move(schema)));
+      };
+      add_part_rules(kind, part, spared, rules);
     }
   }
   return rules;

@@ -86,10 +86,11 @@ class Walk {
       // A list is not a map, so the step fails. A flag or an absent value is replaced by a map.
       if (node_->is_sequence())
         return refuse(step, fmt::format("{} is a list", in_backticks(before_)), "expected a map of keys");
-      const Place place = node_->place;
-      *node_ = Node{};
+      const Node value = exchange(*node_, Node{});
       node_->kind = Node::Kind::map;
-      node_->place = place;
+      node_->place = value.place;
+      // The path of a mesh becomes the map's `file`.
+      if (field_ != nullptr && field_->type == Type::file_or_part && value.is_scalar()) set_key(*node_, "file", value);
     }
 
     const Field* field = find_field(*kind_, step.text);

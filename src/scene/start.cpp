@@ -43,24 +43,6 @@ Node vector_node(const Vec3& value, Place place) {
   return node;
 }
 
-void remove(Node& map, string_view key) {
-  for (size_t i = 0; i < map.keys.size(); ++i) {
-    if (map.keys[i].text != key) continue;
-    map.keys.erase(map.keys.begin() + ptrdiff_t(i));
-    map.items.erase(map.items.begin() + ptrdiff_t(i));
-    return;
-  }
-}
-
-void set(Node& map, string_view key, Node value) {
-  if (Node* node = map.find(key)) {
-    *node = std::move(value);
-    return;
-  }
-  map.keys.push_back({string(key), value.place});
-  map.items.push_back(std::move(value));
-}
-
 /// The key, or the part that a --set gave.
 Place place_of_start(const Node& root) {
   const Place part = View(&root, kind_named("scene"), Place{}).place("start");
@@ -81,7 +63,7 @@ class Starter {
   }
 
   void run() {
-    if (Node* start = root_.find("start")) set(*start, "at", number_node(former_.state.time, place_));
+    if (Node* start = root_.find("start")) set_key(*start, "at", number_node(former_.state.time, place_));
 
     each("balls", [&](const Key& key, Node& node) { body("balls", kind_named("ball"), key, node); });
     each("bodies", [&](const Key& key, Node& node) { body("bodies", kind_named("body"), key, node); });
@@ -135,8 +117,8 @@ class Starter {
     const View view = thing_view(root_, key, node, kind);
     replaces(view, {"position", "velocity", "impulse"}, key.text);
     drop_impulse(view, node, key.text);
-    set(node, "position", vector_node(former_.state.position[size_t(i)], place_));
-    set(node, "velocity", vector_node(former_.state.velocity[size_t(i)], place_));
+    set_key(node, "position", vector_node(former_.state.position[size_t(i)], place_));
+    set_key(node, "velocity", vector_node(former_.state.velocity[size_t(i)], place_));
     forget(map + "." + key.text, {"position", "velocity", "impulse"});
   }
 
@@ -160,7 +142,9 @@ class Starter {
       return;
     }
 
-    // Each ball where it is in the run.
+    // Each ball where it is in the run, with the size and mass that the scene lists.
+    const Node* listed = view.given("members");
+    const bool lists = listed != nullptr && listed->items.size() == count;
     replaces(view, {"in", "arrange", "speed", "velocity", "members"}, key.text);
     Node members;
     members.kind = Node::Kind::sequence;
@@ -173,8 +157,10 @@ class Starter {
       Node& member = members.items.emplace_back();
       member.kind = Node::Kind::map;
       member.place = place_;
-      set(member, "position", vector_node(former_.state.position[size_t(i)], place_));
-      set(member, "velocity", vector_node(former_.state.velocity[size_t(i)], place_));
+      set_key(member, "position", vector_node(former_.state.position[size_t(i)], place_));
+      set_key(member, "velocity", vector_node(former_.state.velocity[size_t(i)], place_));
+      for (const string_view own : {"radius", "mass"})
+        if (const Node* value = lists ? listed->items[k].find(own) : nullptr) set_key(member, own, *value);
     }
 
     if (members.items.size() < count) return;
@@ -184,11 +170,11 @@ class Starter {
       replaces(each_ball, {"velocity", "impulse"}, key.text);
       Node own = *ball;
       drop_impulse(each_ball, own, key.text);
-      set(node, "ball", std::move(own));
+      set_key(node, "ball", std::move(own));
     }
 
-    for (const string_view rule : {"in", "arrange", "speed", "velocity"}) remove(node, rule);
-    set(node, "members", std::move(members));
+    for (const string_view rule : {"in", "arrange", "speed", "velocity"}) remove_key(node, rule);
+    set_key(node, "members", std::move(members));
     forget("groups." + key.text, {"in", "arrange", "speed", "velocity", "members", "ball.velocity", "ball.impulse"});
   }
 
@@ -196,7 +182,7 @@ class Starter {
   void replaces(const View& view, std::initializer_list<string_view> keys, const string& name) {
     for (const string_view key : keys) {
       const Node* node = find_field(view.kind(), key) == nullptr ? nullptr : view.given(key);
-      if (node == nullptr || place_of(*node).source == 0) continue;
+      if (node == nullptr || !diagnostics_.is_option(place_of(*node))) continue;
       diagnostics_.add(
           place_of(*node),
           fmt::format("{} of {} has no effect: `start` takes its place", in_backticks(key), in_backticks(name)),
@@ -209,7 +195,7 @@ class Starter {
     const optional<Vec3> impulse = view.vector("impulse");
     if (!impulse || impulse->isZero(0)) return;
     kicked_.push_back(name);
-    set(node, "impulse", vector_node(Vec3(0, 0, 0), place_));
+    set_key(node, "impulse", vector_node(Vec3(0, 0, 0), place_));
   }
 
   /// No expression of the file made these values.

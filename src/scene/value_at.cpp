@@ -50,7 +50,7 @@ class PathWalk {
     field_ = field;
     node_ = view_->find(*field);
     const bool absent = node_ == nullptr || !node_->is_map();
-    if (holds_map(*field) && !(absent && field->type == Type::color_or_part)) return to_part(*field, absent);
+    if (holds_map(*field) && !(absent && facts_of(field->type).or_value)) return to_part(*field, absent);
     view_.reset();
     return node_ != nullptr || fail(fmt::format("{} has no value in this scene", in_backticks(step)));
   }

@@ -166,7 +166,7 @@ LoadOptions load_options(const Sweep& sweep, LoadOptions load) {
 
 bool may_read_files(const Sweep& sweep, const string& base_text) {
   const string settings = sweep.resolved("");
-  for (const char* key : {"mesh", "start"})
+  for (const char* key : {"mesh", "start", "table"})
     if (base_text.find(key) != string::npos || settings.find(key) != string::npos) return true;
   return false;
 }

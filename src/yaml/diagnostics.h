@@ -49,6 +49,9 @@ class Diagnostics {
   /// Adds an error that another member has already. False: none has. It saves the search for a remedy.
   bool add_member(Place place, string_view message);
 
+  /// Whether a --set option gave what stands there.
+  bool is_option(Place place) const { return sources_[place.source].option; }
+
   bool empty() const { return errors_.empty(); }
   size_t count() const { return errors_.size(); }
   /// Grows with every error, also with those of further members.

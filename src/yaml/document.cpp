@@ -265,6 +265,24 @@ class DocumentBuilder : public YAML::EventHandler {
 
 }  // namespace
 
+void remove_key(Node& map, string_view key) {
+  for (size_t i = 0; i < map.keys.size(); ++i) {
+    if (map.keys[i].text != key) continue;
+    map.keys.erase(map.keys.begin() + ptrdiff_t(i));
+    map.items.erase(map.items.begin() + ptrdiff_t(i));
+    return;
+  }
+}
+
+void set_key(Node& map, string_view key, Node value) {
+  if (Node* node = map.find(key)) {
+    *node = std::move(value);
+    return;
+  }
+  map.keys.push_back({string(key), value.place});
+  map.items.push_back(std::move(value));
+}
+
 const Key* Node::find_key(string_view key) const {
   for (const Key& k : keys) {
     if (k.text == key) return &k;

@@ -39,6 +39,11 @@ struct Node {
   const Key* find_key(string_view key) const;
 };
 
+/// Gives the key of a map this value, in its place or at the end of the map.
+void set_key(Node& map, string_view key, Node value);
+/// Does nothing if there is no such key.
+void remove_key(Node& map, string_view key);
+
 /// Parses sources[index] from `offset` on as exactly one document.
 /// Refuses anchors, aliases, tags, duplicate and complex keys, `<<`, and trees deeper or larger than any scene.
 /// Adds errors to `diagnostics`. Returns nothing if no tree is left to continue with.

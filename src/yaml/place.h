@@ -5,7 +5,7 @@
 
 namespace carom {
 
-/// A place in the file (source 0) or in a --set option (source - 1 is its number).
+/// A place in the file (source 0), or in a --set option or a table (a later source).
 struct Place {
   uint32_t source = 0;
   uint32_t offset = 0;  // bytes from the start of the source's text

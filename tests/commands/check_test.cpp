@@ -279,6 +279,33 @@ TEST(Check, NamesSizesAndMassesThatMakeARunSlow) {
   EXPECT_EQ(fine.out.find("  slow "), string::npos) << fine.out;
 }
 
+TEST(Check, NamesABodyOfAnotherOrderOfSizeWithTheRemedy) {
+  const Workplace here;
+  here.write("part.obj", "v 0 0 0\nv 120 0 0\nv 0 120 0\nv 0 0 120\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  here.write("units.yaml",
+             "scene: 1\nbodies:\n  part: {mass: 1, mesh: part.obj, fit: box, position: [0, 200, 0]}\n"
+             "balls:\n  row: {repeat: 3, mass: 1, radius: 0.05, position: [= i, 0, 0]}\n"
+             "  red: {mass: 1, radius: 0.06, position: [0, 3, 0]}\n"
+             "simulate: {duration: 0.1}\n");
+
+  const Finished check = here.carom({"check", "units.yaml"});
+  EXPECT_NE(
+      check.out.find("  size        part is 1,732 times larger than the rest: `mesh: {file: part.obj, scale: 0.001}` "
+                     "makes\n              it 1,000 times smaller\n"),
+      string::npos)
+      << check.out;
+  const Json json = Json::parse(here.carom({"check", "units.yaml", "--json"}).out);
+  EXPECT_EQ(json.at("scenes").at(0).at("odd_sizes").size(), 1u);
+
+  const Finished fine = here.carom({"check", "units.yaml", "--set", "bodies.part.mesh={file: part.obj, scale: 0.001}"});
+  EXPECT_EQ(fine.code, 0) << fine.err;
+  EXPECT_EQ(fine.out.find("  size "), string::npos) << fine.out;
+  const Finished small = here.carom({"check", "units.yaml", "--set", "balls.red.radius=1e-5", "--set",
+                                     "bodies.part.mesh={file: part.obj, scale: 0.001}"});
+  EXPECT_NE(small.out.find("  size        red is 5,000 times smaller than the rest: lengths are in m\n"), string::npos)
+      << small.out;
+}
+
 // No body ever meets another one, and a second of motion takes a minute.
 TEST(Check, EndsItsSearchForACollisionAndEstimatesTheRun) {
   const Workplace here;

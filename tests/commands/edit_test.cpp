@@ -306,6 +306,45 @@ TEST(Watch, FollowsMeshesAndTheirMaterials) {
   EXPECT_NE(here.read("output/a" + frame), here.read("green" + frame));
 }
 
+TEST(Watch, FollowsTheTableOfAGroupAlsoAfterAnError) {
+  const Workplace here;
+  here.write("heap.csv", "x_m,y_m,z_m\n0,0,0\n");
+  here.write("a.yaml",
+             "scene: 1\ngroups: {g: {table: heap.csv, ball: {mass: 1, radius: 0.1}}}\nsimulate: {duration: 0.1}\n");
+  here.write("b.yaml", two_balls());
+
+  const Finished run = watched(here,
+                               "await err waiting\n"
+                               "printf 'x_m,y_m,z_m\\n0,0,z\\n' > new; mv new heap.csv; await err '1 error; not run'\n"
+                               "printf 'x_m,y_m,z_m\\n0,7,0\\n' > new; mv new heap.csv\n"
+                               "await output/a/trajectory.csv 0,g.0,0,7,0");
+  EXPECT_EQ(run.code, 143) << run.err << run.out;
+  EXPECT_NE(run.err.find("heap.csv:2:5: error: `z` is not a number in the column `z_m`\n"), string::npos) << run.err;
+}
+
+TEST(Run, OfATableIsUpToDateUntilItsNumbersChangeAndSaysHowFarItPushed) {
+  const Workplace here;
+  here.write("a.yaml",
+             "scene: 1\ngroups: {g: {table: heap.csv, overlap: push, ball: {mass: 1, radius: 1}}}\n"
+             "simulate: {duration: 0.1}\n");
+  here.write("heap.csv", "x_m,y_m,z_m,note\n0,0,0,a\n1.9998,0,0,b\n");
+  const Finished first = here.carom({"run", "a.yaml"});
+  EXPECT_NE(first.err.find("carom: a.yaml: overlap: push moved 2 balls of g, the furthest by 0.000101 m: g."),
+            string::npos)
+      << first.err;
+
+  // Another note changes no number.
+  here.write("heap.csv", "x_m,y_m,z_m,note\n0,0,0,c\n1.9998,0,0,b\n");
+  EXPECT_NE(here.carom({"run", "a.yaml"}).out.find("up to date"), string::npos);
+  here.write("heap.csv", "x_m,y_m,z_m\n0,0,0\n3,0,0\n");
+  EXPECT_EQ(here.carom({"run", "a.yaml"}).out.find("up to date"), string::npos);
+  EXPECT_NE(here.read("output/a/trajectory.csv").find("0,g.1,3,0,0"), string::npos);
+
+  // The folder's scene runs without the table.
+  EXPECT_EQ(here.carom({"run", "output/a/scene.yaml", "-o", "again"}).code, 0);
+  EXPECT_EQ(here.read("again/trajectory.csv"), here.read("output/a/trajectory.csv"));
+}
+
 TEST(Watch, OfARunThatIsDoneShowsATextureThatGoesMissing) {
   const Workplace here;
   here.write("pin.obj",

@@ -97,6 +97,24 @@ TEST(Exponential, IsTheReferences) {
   }
 }
 
+TEST(Exponential, GrowsAsTheReferences) {
+  const pair<double, double> references[] = {
+      {1e-17, 1.00000000000000001},        {0.1, 1.1051709180756476309},
+      {0.3, 1.349858807576003089},         {0.34657359027997264, 1.4142135623730950324},
+      {0.37, 1.4477346146633244552},       {1, 2.7182818284590452354},
+      {1.1, 3.0041660239464333789},        {4.46582, 86.99233401481431863},
+      {36.5, 7108019154642244.0649},       {100, 2.6881171418161354484e+43},
+      {500.25, 1.802248082388160778e+217}, {709.5, 1.3549863193146328309e+308},
+  };
+
+  for (const auto& [z, value] : references) EXPECT_LE(ulps(exponential(z), value), allowed) << z;
+  EXPECT_EQ(exponential(0), 1);
+  EXPECT_EQ(exponential(-1.1), exp_minus(1.1));
+  EXPECT_EQ(exponential(710), infinity);
+  EXPECT_EQ(exponential(-infinity), 0);
+  EXPECT_TRUE(std::isnan(exponential(infinity - infinity)));
+}
+
 TEST(Exponential, EndsAtTheLeastDouble) {
   EXPECT_EQ(exp_minus(0), 1);
   EXPECT_EQ(exp_minus(744.5), 0x1p-1074);
@@ -134,6 +152,30 @@ TEST(Logarithm, IsTheReferences) {
     EXPECT_LE(ulps(arc_sinh(r.y), r.arc_sinh), allowed) << r.y;
     EXPECT_EQ(arc_sinh(-r.y), -arc_sinh(r.y));
   }
+}
+
+TEST(Logarithm, OfAnyPositiveDoubleIsTheReference) {
+  const pair<double, double> references[] = {
+      {5e-324, -744.44007192138126231},
+      {1e-310, -713.8013788281541651},
+      {1e-300, -690.77552789821370518},
+      {0.001, -6.9077552789821370312},
+      {0.5, -0.69314718055994530942},
+      // Near 1.
+      {0.99, -0.010050335853501450155},
+      {0.9999999999999999, -1.1102230246251566021e-16},
+      {1.0000000000000002, 2.2204460492503128343e-16},
+      {1.01, 0.0099503308531680916421},
+      // Above it.
+      {2, 0.69314718055994530942},
+      {10, 2.302585092994045684},
+      {123456.789, 11.723646487185881016},
+      {1e+300, 690.77552789821370526},
+      {1.7976931348623157e+308, 709.78271289338399673},
+  };
+
+  for (const auto& [x, value] : references) EXPECT_LE(ulps(logarithm(x), value), allowed) << x;
+  EXPECT_EQ(logarithm(1), 0);
 }
 
 struct AngleReference {

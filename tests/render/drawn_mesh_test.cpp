@@ -1,4 +1,5 @@
 // Meshes in pictures.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -91,6 +92,40 @@ struct MeshText {
   ~MeshText() { std::filesystem::remove_all(folder); }
   string folder = ::testing::TempDir() + "carom_drawn_XXXXXX", file;
 };
+
+TEST(DrawnMesh, ThatIsTurnedIsThePictureOfTheTurnedFile) {
+  // The pin in its file, and the same pin as another program writes it: z up, in millimetres.
+  const Mesh pin = read_mesh(meshes + "pin.obj");
+  string text;
+  for (const Vec3& p : pin.vertices) text += fmt::format("v {} {} {}\n", 1000 * p.x(), -1000 * p.z(), 1000 * p.y());
+  for (size_t t = 0; t < pin.triangles.size(); t += 3)
+    text += fmt::format("f {} {} {}\n", pin.triangles[t] + 1, pin.triangles[t + 1] + 1, pin.triangles[t + 2] + 1);
+  const MeshText z_up(text);
+
+  const Size size{200, 200};
+  const Vec3 position(0.3, -0.2, 0.1);
+  Scene plain = mesh_scene(meshes + "pin.obj", position, Vec3(0, 0.1905, 0), 6);
+  Scene other = mesh_scene(z_up.file, position, Vec3(0, 190.5, 0), 0.006);
+  other.roster.bodies.back().mesh->turn = mesh_turn(UpAxis::z, Vec3::Zero());
+  for (Scene* scene : {&plain, &other}) {
+    scene->roster.bodies.back().mesh->turn =
+        scene == &other ? mesh_turn(UpAxis::z, Vec3(0, 40, 20)) : mesh_turn(UpAxis::y, Vec3(0, 40, 20));
+    // The centre is that of the turned mesh.
+    const Vec3 centre = scene->roster.bodies.back().mesh->center;
+    scene->roster.bodies.back().mesh->center = turned(mesh_turn(UpAxis::y, Vec3(0, 40, 20)), centre);
+  }
+
+  Renderer one(plain, size, 4), two(other, size, 4);
+  const Image &a = one.draw(plain.initial), &b = two.draw(other.initial);
+  int lit = 0, differing = 0;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
+      lit += grey(a, x, y) > 0;
+      differing += std::abs(grey(a, x, y) - grey(b, x, y)) > 3;
+    }
+  EXPECT_GT(lit, 500);
+  EXPECT_LT(differing, lit / 100);  // rounding of the file's floats
+}
 
 TEST(DrawnMesh, CastsItsOwnOutlineInParallelLight) {
   // A level L, of the square from -1 to 1 without its quarter x > 0, z > 0.

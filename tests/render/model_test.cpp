@@ -208,6 +208,24 @@ TEST(Glb, BodiesShareAMeshOfSeveralMaterials) {
   for (size_t i = 0; i < 2; ++i) EXPECT_EQ(gltf["meshes"][i]["primitives"].size(), 2U);
 }
 
+TEST(Glb, BallsOfAGroupHaveMeshesAsLargeAsEach) {
+  const test::MeshFolder folder;
+  Scene scene;
+  test::add_ball(scene, Vec3(0, 0, 0), 1, {1, 1, 1});
+  test::add_ball(scene, Vec3(3, 0, 0), 0.5, {1, 1, 1});
+  scene.roster.bodies.resize(1);
+  scene.roster.bodies[0].count = 2;
+  scene.roster.bodies[0].group = true;
+
+  MeshUse& use = scene.roster.bodies[0].mesh.emplace();
+  use.file = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\n");
+  use.reach = 1;
+  const Json gltf = json_of(glb(scene, KeyedMotion{}));
+  EXPECT_EQ(gltf["nodes"][0]["scale"], Json({1, 1, 1}));
+  EXPECT_EQ(gltf["nodes"][1]["scale"], Json({0.5, 0.5, 0.5}));
+  EXPECT_EQ(gltf["nodes"][1]["mesh"], gltf["nodes"][0]["mesh"]);
+}
+
 /// The floats of an accessor, in order.
 vector<float> floats_of(const string& file, const Json& gltf, size_t accessor) {
   const Json& has = gltf["accessors"][accessor];
@@ -219,6 +237,21 @@ vector<float> floats_of(const string& file, const Json& gltf, size_t accessor) {
   const size_t at = 20 + json_size + 8 + view.value("byteOffset", size_t{0}) + has.value("byteOffset", size_t{0});
   std::memcpy(floats.data(), file.data() + at, floats.size() * sizeof(float));
   return floats;
+}
+
+TEST(Glb, AMeshIsTurnedInTheFile) {
+  const test::MeshFolder folder;
+  const string obj = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 2 3\nf 1 2 4\n");
+  Scene scene = ball_at(Vec3(0, 0, 0));
+  MeshUse& use = scene.roster.bodies[0].mesh.emplace();
+  use.file = obj;
+  use.turn = mesh_turn(UpAxis::z, Vec3::Zero());
+  const string file = glb(scene, KeyedMotion{});
+  const Json gltf = json_of(file);
+  const Json& position = gltf["accessors"][gltf["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<size_t>()];
+  // The file's z is up, and its y goes to -z.
+  EXPECT_EQ(position["min"], Json({0, 0, -2}));
+  EXPECT_EQ(position["max"], Json({1, 3, 0}));
 }
 
 TEST(Glb, ACameraThatMovesHasKeyframes) {

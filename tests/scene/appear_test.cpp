@@ -45,7 +45,7 @@ TEST(Appear, ARateMakesTheBallsThatAreDueBeforeTheEnd) {
       start + "groups: {rain: {rate: 4, from: 1, in: {min: [-1, 3, -1], max: [1, 4, 2]}, ball: {}, speed: 1}}\n");
   ASSERT_EQ(scene.world.pours.size(), 1u);
   EXPECT_EQ(scene.world.pours[0].center, Vec3(0, 3.5, 0.5));
-  EXPECT_LT((scene.world.pours[0].within.half - Vec3(0.9, 0.4, 1.4)).norm(), 1e-15);
+  EXPECT_LT((scene.world.pours[0].within.half - Vec3(1, 0.5, 1.5)).norm(), 1e-15);
   EXPECT_EQ(scene.world.appears[3], 1.75);
 }
 
@@ -78,7 +78,7 @@ TEST(Appear, ErrorsHavePlaceAndRemedy) {
   EXPECT_NE(group("from: 3").find("`count`"), string::npos);
 
   const string wide = "groups: {rain: {ball: {radius: 0.6}, rate: 5, in: {min: [0, 3, 0], max: [1, 4, 1]}}}\n";
-  EXPECT_NE(errors_of(start + wide).find("does not fit into the box of `rain`"), string::npos);
+  EXPECT_NE(errors_of(start + wide).find("does not fit into the space of `rain`"), string::npos);
 }
 
 TEST(Appear, BudgetsCountBallsThatCome) {

@@ -26,6 +26,13 @@ LoadOptions with_reader(int* reads = nullptr) {
   return options;
 }
 
+/// A pin that is drawn in millimetres, with another axis up: of the file's axes (x, y, z) of the pin.
+vector<Vec3> drawn_pin(const function<Vec3(const Vec3&)>& axes) {
+  vector<Vec3> out;
+  for (const Vec3& p : pin) out.push_back(1000 * axes(p));
+  return out;
+}
+
 /// A scene in a folder with the meshes of with_reader().
 Scene load_with_meshes(const string& text, const LoadOptions& options = with_reader()) {
   for (const char* name : {"pin.stl", "torn.stl", "flat.stl"}) write_file("solid\n", name);
@@ -131,7 +138,7 @@ TEST(BodyErrors, ObstaclesHaveNoMass) {
   EXPECT_EQ(
       in_parts(errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n")),
       (Parts{{"3:17 mass", "unknown key `mass` in obstacle `a`",
-              "`mass` is a key of `ball` or `body`\n"
+              "`mass` is a key of `ball`, `body` or `placed`\n"
               "expected radius, cylinder, box, mesh, fit, position, motion, restitution, color, visible or repeat"}}));
 }
 
@@ -311,7 +318,103 @@ TEST(MeshErrors, FitAndMeshNeedOneAnother) {
                     "expected `fit`: sphere, cylinder or box, the tightest one around the mesh"}}));
   EXPECT_EQ(in_parts(errors_of(start + "obstacles: {a: {fit: box, position: [0, 0, 0]}}\n")),
             (Parts{{"3:17 fit", "obstacle `a` has `fit` but no `mesh`",
-                    "expected `mesh`: the path of a file, relative to the folder of the scene"}}));
+                    "expected `mesh`: the path of a file, relative to the folder of the scene, or a map of keys"}}));
+}
+
+TEST(Meshes, InOtherUnitsAndAxesAreTheSameBody) {
+  const string rest = "mass: 1.5, fit: cylinder, position: [1, 0.19, 0]";
+  const Scene plain = load_with_meshes(start + "bodies: {a: {mesh: pin.stl, " + rest + "}}\n");
+
+  struct Case {
+    const char* how;
+    function<Vec3(const Vec3&)> axes;  // of the file, of a point of the pin
+  };
+  const Case cases[] = {
+      {"scale: 0.001", [](const Vec3& p) { return p; }},
+      // The file's z is up, and its y points away from the viewer, who looks along -z.
+      {"scale: 0.001, up: z", [](const Vec3& p) { return Vec3(p.x(), -p.z(), p.y()); }},
+      {"scale: 0.001, up: x", [](const Vec3& p) { return Vec3(p.y(), -p.x(), p.z()); }},
+      {"scale: 0.001, turn: [0, 0, 90]", [](const Vec3& p) { return Vec3(p.y(), -p.x(), p.z()); }},
+      {"scale: 0.001, turn: [-90, 0, 0]", [](const Vec3& p) { return Vec3(p.x(), -p.z(), p.y()); }},
+      // About x first, then about y: the file's x is up only with the order of the two.
+      {"scale: 0.001, turn: [90, 0, 90], up: y", [](const Vec3& p) { return Vec3(p.y(), p.z(), p.x()); }},
+      // The turn comes after `up`.
+      {"scale: 0.001, up: z, turn: [0, 90, 0]", [](const Vec3& p) { return Vec3(-p.z(), -p.x(), p.y()); }},
+  };
+
+  for (const Case& one : cases) {
+    LoadOptions options = with_reader();
+    options.mesh_points = [&](const string&) { return drawn_pin(one.axes); };
+    const Scene scene =
+        load_with_meshes(start + "bodies: {a: {mesh: {file: pin.stl, " + one.how + "}, " + rest + "}}\n", options);
+    EXPECT_TRUE(scene.world.volume[0].half.isApprox(plain.world.volume[0].half, 1e-12)) << one.how;
+
+    // Each vertex is drawn where that of the plain pin is.
+    const MeshUse &use = *scene.roster.bodies[0].mesh, &known = *plain.roster.bodies[0].mesh;
+    const vector<Vec3> file = drawn_pin(one.axes);
+    for (size_t i = 0; i < pin.size(); ++i)
+      EXPECT_LT((use.scale * (turned(use.turn, file[i]) - use.center) - (pin[i] - known.center)).norm(), 1e-12)
+          << one.how << i;
+    EXPECT_EQ(load_with_meshes(scene.resolved, options).resolved, scene.resolved);
+  }
+}
+
+TEST(Meshes, AreTurnedAndNeverMirrored) {
+  for (const UpAxis up : {UpAxis::x, UpAxis::y, UpAxis::z}) {
+    const MeshTurn turn = mesh_turn(up, Vec3(30, -70, 200.5));
+    EXPECT_NEAR(turn[0].cross(turn[1]).dot(turn[2]), 1, 1e-14);
+    const MeshTurn plain = mesh_turn(up, Vec3(0, 0, 0));
+    EXPECT_EQ(turned(plain, Vec3::Unit(int(up))), Vec3(0, 1, 0));
+  }
+  EXPECT_EQ(mesh_turn(UpAxis::y, Vec3(0, 0, 0)), no_turn);
+  // About x, then y, then z: z goes to -y, stays, and goes to x.
+  EXPECT_EQ(turned(mesh_turn(UpAxis::y, Vec3(90, 90, 90)), Vec3(0, 0, 1)), Vec3(1, 0, 0));
+  EXPECT_LT((turned(mesh_turn(UpAxis::y, Vec3(30, 0, 0)), Vec3(0, 1, 0)) - Vec3(0, sqrt(3.0) / 2, 0.5)).norm(), 1e-15);
+}
+
+TEST(Meshes, InAGivenVolumeHaveItsSizeWhateverTheirScale) {
+  const string body = "{mass: 1, radius: 2, position: [0, 0, 0], mesh: ";
+  const Scene plain = load_with_meshes(start + "balls: {a: " + body + "pin.stl}}\n");
+  const Scene scaled = load_with_meshes(start + "balls: {a: " + body + "{file: pin.stl, scale: 0.001}}}\n");
+  EXPECT_EQ(scaled.roster.bodies[0].mesh->scale, plain.roster.bodies[0].mesh->scale);
+}
+
+TEST(Meshes, OfBallsOfManyRadiiAreAsLargeAsEach) {
+  const Scene scene = load_with_meshes(
+      start + "groups: {g: {count: 3, in: {radius: 9}, ball: {mass: 1, radius: {from: 0.5, to: 1}, mesh: pin.stl}}}\n");
+  const Scene one = load_with_meshes(start + "balls: {a: {mass: 1, radius: 1, position: [0, 0, 0], mesh: pin.stl}}\n");
+  for (Entity i = 0; i < 3; ++i)
+    EXPECT_DOUBLE_EQ(scene.roster.bodies[0].mesh->scale_for(scene.world.radius[i]),
+                     one.roster.bodies[0].mesh->scale * scene.world.radius[i]);
+  EXPECT_EQ(one.roster.bodies[0].mesh->scale_for(1), one.roster.bodies[0].mesh->scale);
+}
+
+TEST(Meshes, KeepTheirFileWhenASettingGivesAnotherPart) {
+  LoadOptions options = with_reader();
+  options.set = {"bodies.a.mesh.scale=0.5"};
+  for (const char* mesh : {"pin.stl", "{file: pin.stl, scale: 3}"}) {
+    const Scene scene = load_with_meshes(
+        start + "bodies: {a: {mass: 1, fit: cylinder, position: [1, 0.19, 0], mesh: " + mesh + "}}\n", options);
+    EXPECT_NEAR(scene.world.volume[0].half.y(), 0.095, 1e-12);
+  }
+}
+
+TEST(Meshes, ThatAreGivenWrongAreRefused) {
+  const auto errors = [](const string& mesh) {
+    return in_parts(mesh_errors(start + "bodies: {a: {mass: 1, fit: box, position: [0, 0, 0], mesh: " + mesh + "}}\n"));
+  };
+  EXPECT_EQ(errors("{scale: 0.001}"),
+            (Parts{{"3:54 mesh", "`mesh` has no `file`",
+                    "expected `file`: the path of a file, relative to the folder of the scene"}}));
+  EXPECT_EQ(errors("{file: pin.stl, scale: 0}"), (Parts{{"3:83 0", "`scale` is 0", "expected a number above 0 in m"}}));
+  EXPECT_EQ(errors("{file: pin.stl, up: w}"), (Parts{{"3:80 w", "`up` is `w`", "expected x, y or z"}}));
+  EXPECT_EQ(errors("{file: pin.stl, turn: 30}"),
+            (Parts{{"3:82 30", "`turn` is `30`", "expected [x, y, z], three numbers from -360 to 360 in degrees"}}));
+
+  EXPECT_EQ(errors("{file: none.stl}"),
+            (Parts{{"3:67 none.stl", "there is no file `none.stl`", "paths are relative to the folder of the scene"}}));
+  EXPECT_EQ(errors("{file: pin.stl, scale: 1e30}").size(), 0u);
+  EXPECT_EQ(errors("[pin.stl]").size(), 1u);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 double value_of(const string& text) {
   const vector<string> names = {"r", "i", "big"};
   const double values[] = {0.5, -3, 1e300};
-  return Formula(text, names).value(values);
+  return Formula(text, names).value(values, 7);
 }
 
 TEST(Formulas, KnowPrecedenceAndSides) {
@@ -43,6 +43,55 @@ TEST(Formulas, HaveTheFunctionsInDegrees) {
   EXPECT_EQ(value_of("sqrt(16) + abs(i) + floor(-0.5)"), 6);
   EXPECT_EQ(value_of("min(3, 1, 2) + max(r)"), 1.5);
   EXPECT_EQ(value_of("pi"), 3.141592653589793);
+}
+
+TEST(Formulas, HaveExponentialAndLogarithm) {
+  EXPECT_EQ(value_of("exp(0) + log(1)"), 1);
+  EXPECT_DOUBLE_EQ(value_of("exp(1)"), 2.718281828459045);
+  EXPECT_DOUBLE_EQ(value_of("log(10)"), 2.302585092994046);
+  EXPECT_DOUBLE_EQ(value_of("log(exp(-700.5))"), -700.5);
+  EXPECT_EQ(value_of("exp(-1e6)"), 0);
+}
+
+TEST(Formulas, ChooseByAComparison) {
+  EXPECT_EQ(value_of("if(r < 1, 2, 3)"), 2);
+  EXPECT_EQ(value_of("if(r > 1, 2, 3) * 10"), 30);
+  EXPECT_EQ(value_of("if(1 <= 1, 2, 3) + if(1 >= 2, 20, 30)"), 32);
+  EXPECT_EQ(value_of("if(i == -3, 2, 3) + if(i != -3, 20, 30)"), 32);
+  EXPECT_EQ(value_of("if(i + 2 < -r, if(r < 0, 1, 2), 3)"), 2);
+  EXPECT_EQ(value_of("1 + if(2 < 1, if(r < 0, 1, 2), if(0 < 1, max(3, 4), 5)) + 1"), 6);
+  EXPECT_EQ(value_of("if (2*r==1,1,0)"), 1);
+}
+
+TEST(Formulas, DoNotComputeWhatTheConditionExcludes) {
+  EXPECT_EQ(value_of("if(r == 0, 1 / 0, r)"), 0.5);
+  EXPECT_EQ(value_of("if(i < 0, 0, sqrt(i))"), 0);
+  EXPECT_EQ(value_of("max(1, if(i < 0, 2, log(i)), 3)"), 3);
+}
+
+TEST(Formulas, DrawByTheSeedAndTheNumberAlone) {
+  // SplitMix64, computed by a few lines of Python.
+  EXPECT_EQ(value_of("rand(0)"), 0.5936079187902369);
+  EXPECT_EQ(value_of("rand(i)"), 0.21631137802298572);
+  EXPECT_EQ(value_of("rand(2^53)"), 0.7331888571830131);
+  EXPECT_EQ(value_of("rand(-0) - rand(0)"), 0);
+  const vector<string> names = {"i"};
+  const Formula formula("rand(i)", names);
+  EXPECT_TRUE(formula.draws());
+  EXPECT_EQ(formula.value(vector<double>{1}, 0), 0.052014636229316125);
+
+  // Uniform: the mean of 10^5 is that of [0, 1) to 3 of its standard deviations, and neighbours do not correlate.
+  double sum = 0, products = 0, before = 0.5;
+  constexpr int n = 100'000;
+  for (int k = 0; k < n; ++k) {
+    const double x = formula.value(vector<double>{double(k)}, 7);
+    EXPECT_TRUE(x >= 0 && x < 1);
+    sum += x - 0.5;
+    products += (x - 0.5) * (before - 0.5);
+    before = x;
+  }
+  EXPECT_LT(std::abs(sum / n), 3 * sqrt(1.0 / 12 / n));
+  EXPECT_LT(std::abs(products / n), 3 * (1.0 / 12) / sqrt(double(n)));
 }
 
 TEST(Formulas, TakeTheRemainderWithTheSignOfTheDivisor) {
@@ -107,7 +156,30 @@ const pair<const char*, const char*> faults[] = {
     {"rnd(1)", "rnd: no function is named `rnd`"},
     {"_pi", "_pi: no number is named `_pi`"},
     {"r = 2", "=: `=` in an expression"},
-    {"r < 2", "<: `<` in an expression"},
+    {"if(r = 2, 1, 2)", "=: `=` in an expression"},
+    {"if(r ! 2, 1, 2)", "!: `!` in an expression"},
+    {"if(r < 2 & i < 1, 1, 2)", "&: `&` in an expression"},
+    {"r < 2", "<: a comparison outside of a condition"},
+    {"(r <= 2) * 3", "<=: a comparison outside of a condition"},
+    {"if((r < 2), 1, 2)", "<: a comparison outside of a condition"},
+    {"if(1 < r < 2, 1, 2)", "<: a comparison outside of a condition"},
+    {"if(r < 2, 1 < 2, 2)", "<: a comparison outside of a condition"},
+    {"if(< 2, 1, 2)", "<: a number is missing before `<`"},
+    {"if(r, 1, 2)", "if: `if` has no comparison"},
+    {"1 + if(r)", "if: `if` has no comparison"},
+    {"if()", "if: `if` has no argument"},
+    {"if + 1", "if: `if` without parentheses"},
+    {"if(r < 2, 1)", "if: `if` has fewer arguments than three"},
+    {"if(r < 2)", "if: `if` has fewer arguments than three"},
+    {"if(r < 2, 1, 2, 3)", "if: `if` has more arguments than three"},
+    {"if(r < 2, 1, 2", "(: this parenthesis is not closed"},
+    {"if(r", "(: this parenthesis is not closed"},
+    {"if(r 2, 1, 2)", "2: an operator is missing before `2`"},
+    {"if(r < 2, 1 / 0, 2)", "/: division by zero"},
+    {"log(0)", "log: the logarithm of 0"},
+    {"exp(710)", "exp: this exponential makes a number too large for a double"},
+    {"rand(0.5)", "rand: rand of 0.5"},
+    {"rand(1e300)", "rand: rand of 1e+300"},
     {"r ? 1 : 2", "?: `?` in an expression"},
     {"\"x\"", "\": `\"` in an expression"},
     {"r²", "²: `²` in an expression"},
@@ -251,6 +323,35 @@ TEST(Expressions, KeepTheTextsOfWhatFollowsFromLet) {
   EXPECT_EQ(text("walls.fence.size.width"), "= 2 * r");
   EXPECT_EQ(text("forces.0.drag.linear"), "= r / 100");
   EXPECT_EQ(text("title"), "");
+}
+
+TEST(Expressions, DrawByTheSeedWhateverTheyStandIn) {
+  const string text = start +
+                      "seed: 7\nlet: {a: '= rand(0)'}\n"
+                      "balls:\n"
+                      "  row: {repeat: 2, mass: '= 1 + a', radius: 0.1, position: ['= 2 * i + rand(i)', 0, 0]}\n";
+  const Scene scene = load_text(text);
+  EXPECT_EQ(scene.world.mass[0], 1 + 0.5936079187902369);
+  EXPECT_EQ(scene.initial.position[0].x(), 0.5936079187902369);
+
+  // Another seed, by an option or a setting, is another draw. The resolved scene has numbers.
+  LoadOptions option, setting;
+  option.seed = 0;
+  setting.set = {"seed=0"};
+  EXPECT_EQ(load_text(text, option).world.mass[0], 1 + 0.28865318502595894);
+  EXPECT_EQ(load_text(text, setting).world.mass[0], 1 + 0.28865318502595894);
+  EXPECT_EQ(load_text(scene.resolved, setting).world.mass[0], scene.world.mass[0]);
+
+  // As a sweep sets it.
+  setting.set = {"let.a== 2 * rand(0)"};
+  EXPECT_EQ(load_text(text, setting).world.mass[0], 1 + 2 * 0.5936079187902369);
+}
+
+TEST(ExpressionErrors, ASeedThatIsAnExpressionDrawsNothing) {
+  EXPECT_EQ(
+      in_parts(errors_of(start + "seed: = 3 + 4\nlet: {a: = rand(0)}\n")),
+      (Parts{{"4:12 rand", "`rand` draws by the seed, which is an expression", "expected a number after `seed`"}}));
+  EXPECT_EQ(marked_errors(start + "seed: -1\nlet: {a: = rand(0)}\n"), (Marked{{"-1", "`seed` is -1"}}));
 }
 
 TEST(ExpressionErrors, PointIntoTheExpression) {

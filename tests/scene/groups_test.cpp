@@ -124,6 +124,103 @@ TEST(Groups, AreTheSameOnEveryMachineAndDifferBySeedAndName) {
   EXPECT_EQ(load_text(group("lattice", "50", 0.05, 1, ", speed: 2")).initial.velocity, a.initial.velocity);
 }
 
+/// A group of 300 balls with radii from 0.02 to 0.05.
+string with_radii(const string& arrange, const string& in, const string& mass) {
+  return start + "seed: 3\ngroups:\n  gas: {count: 300, ball: {" + mass +
+         ", radius: {from: 0.02, to: 0.05}}, in: " + in + ", arrange: " + arrange + "}\noutput: {}\n";
+}
+
+const pair<const char*, const char*> spaces[] = {
+    {"box", "{min: [0, 0, 0], max: [1, 1, 1]}"},
+    {"ball", "{radius: 0.7, position: [0.5, 0.5, 0.5]}"},
+    {"cylinder", "{cylinder: {radius: 0.6, height: 1}, position: [0.5, 0.5, 0.5]}"}};
+
+/// How far a ball reaches beyond a space of `spaces`, at most (m).
+double greatest_excess(const Scene& scene, const string& space) {
+  if (space == "box") return greatest_excess(scene, Vec3(0, 0, 0), Vec3(1, 1, 1));
+  double greatest = -1;
+  for (Entity i = 0; i < scene.world.body_count(); ++i) {
+    const Vec3 d = scene.initial.position[i] - Vec3::Constant(0.5);
+    const double r = scene.world.radius[i];
+    greatest = max(greatest, space == "ball" ? d.norm() + r - 0.7
+                                             : max(std::hypot(d.x(), d.z()) + r - 0.6, std::abs(d.y()) + r - 0.5));
+  }
+  return greatest;
+}
+
+TEST(Groups, OfManyRadiiLieWhollyInsideEverySpaceWithoutOverlap) {
+  for (const char* arrange : {"random", "lattice", "hexagonal"}) {
+    for (const auto& [space, in] : spaces) {
+      const Scene scene = load_text(with_radii(arrange, in, "density: 1000"));
+      EXPECT_LT(greatest_overlap(scene), 1e-12) << arrange << space;
+      EXPECT_LT(greatest_excess(scene, space), 1e-12) << arrange << space;
+      EXPECT_EQ(load_text(scene.resolved).resolved, scene.resolved);
+      EXPECT_EQ(load_text(scene.resolved).initial.position, scene.initial.position);
+    }
+  }
+}
+
+TEST(Groups, DrawTheirRadiiUniformlyAndTheSameForEveryArrangement) {
+  const Scene scene = load_text(with_radii("random", spaces[0].second, "density: 1000"));
+  EXPECT_EQ(load_text(with_radii("hexagonal", spaces[1].second, "mass: 1")).world.radius, scene.world.radius);
+  double mean = 0;
+  for (const double r : scene.world.radius) {
+    EXPECT_TRUE(r >= 0.02 && r < 0.05);
+    mean += r / 300;
+  }
+  // Three standard deviations of the mean of 300.
+  EXPECT_NEAR(mean, 0.035, 3 * 0.03 / sqrt(12.0 * 300));
+
+  // With a density each ball has its own mass, and with a mass all have the same.
+  for (Entity i = 0; i < 300; ++i)
+    EXPECT_DOUBLE_EQ(scene.world.mass[i], 1000 * 4.0 / 3 * 3.14159265358979324 * pow(scene.world.radius[i], 3));
+  EXPECT_EQ(load_text(with_radii("random", spaces[0].second, "mass: 2")).world.mass, vector<double>(300, 2.0));
+}
+
+TEST(Groups, OfOneRadiusAlsoLieInBallsAndCylinders) {
+  for (const char* arrange : {"random", "lattice", "hexagonal"}) {
+    for (const size_t k : {1, 2}) {
+      const Scene scene =
+          load_text(start + "groups: {gas: {count: 200, ball: {mass: 1, radius: 0.05}, in: " + spaces[k].second +
+                    ", arrange: " + arrange + "}}\noutput: {}\n");
+      EXPECT_LT(greatest_overlap(scene), 1e-12) << arrange << k;
+      EXPECT_LT(greatest_excess(scene, spaces[k].first), 1e-12) << arrange << k;
+    }
+  }
+}
+
+TEST(Groups, SpacesAndRadiiThatCannotBeAreRefused) {
+  const auto errors = [](const string& in, const string& radius) {
+    return in_parts(
+        errors_of(start + "groups:\n  g: {count: 9, in: " + in + ", ball: {mass: 1, radius: " + radius + "}}\n"));
+  };
+  const string box = "{min: [0, 0, 0], max: [1, 1, 1]}";
+  EXPECT_EQ(errors("{radius: 0.2}", "0.1"),
+            (Parts{{"4:14 9", "9 balls of radius 0.1 do not fit into the ball of `g`", "1 would fit"}}));
+  EXPECT_EQ(errors("{cylinder: {radius: 0.1, height: 1}}", "{from: 0.05, to: 0.1}"),
+            (Parts{{"4:14 9", "9 balls of radii up to 0.0984846362770741 do not fit into the cylinder of `g`",
+                    "5 of the largest would fit"}}));
+  EXPECT_EQ(errors(box, "{from: 0.2, to: 0.1}"),
+            (Parts{{"4:95 0.1", "the radii go from 0.2 to 0.1", "expected `from` below `to`"}}));
+
+  // One end is missing, or no radius.
+  EXPECT_EQ(errors(box, "{from: 0.2}"),
+            (Parts{{"4:71 radius", "`radius` has no `to`", "expected `to`: a number above 0 in m"}}));
+  EXPECT_EQ(errors(box, "{from: 0, to: 1}"), (Parts{{"4:86 0", "`from` is 0", "expected a number above 0 in m"}}));
+
+  EXPECT_EQ(errors("{radius: 1, min: [0, 0, 0], max: [1, 1, 1]}", "0.1"),
+            (Parts{{"4:33 min", "`in` has both `radius` and `min`", "remove one of them"},
+                   {"4:49 max", "`in` has both `radius` and `max`", "remove one of them"}}));
+  EXPECT_EQ(errors("{min: [0, 0, 0]}", "0.1"),
+            (Parts{{"4:22 min", "`in` has `min` but no `max`", "expected `max`: [x, y, z], three numbers in m"}}));
+  EXPECT_EQ(
+      errors("{position: [0, 0, 0]}", "0.1"),
+      (Parts{{"4:22 position", "`in` has `position` but no `radius`", "expected `radius`: a number above 0 in m"}}));
+  // A ball beside a group has one radius.
+  EXPECT_EQ(marked_errors(start + "balls: {a: {mass: 1, radius: {from: 1, to: 2}, position: [0, 0, 0]}}\n"),
+            (Marked{{"{", "`radius` is a map of keys"}}));
+}
+
 TEST(Groups, VelocityIsTheGroupsOrElseTheBalls) {
   EXPECT_EQ(load_text(group("lattice", "2", 0.1, 1, ", velocity: [1, 2, 3]")).initial.velocity[1], Vec3(1, 2, 3));
   EXPECT_NE(errors_of(group("lattice", "2", 0.1, 1, ", velocity: [1, 2, 3], speed: 1"))
@@ -207,8 +304,9 @@ TEST(Groups, NeedNoBallWhereDefaultsHaveAllOfIt) {
                               "{min: [= i, 0, 0], max: [= i + 1, 1, 1]}}}\n"),
             "");
   // What is missing is named.
-  EXPECT_EQ(in_parts(errors_of(start + "defaults: {ball: {mass: 2}}\n" + gas)),
-            (Parts{{"4:10 gas", "`ball` has no `radius`", "expected `radius`: a number above 0 in m"}}));
+  EXPECT_EQ(
+      in_parts(errors_of(start + "defaults: {ball: {mass: 2}}\n" + gas)),
+      (Parts{{"4:10 gas", "`ball` has no `radius`", "expected `radius`: a number above 0 in m, or a map of keys"}}));
   EXPECT_NE(errors_of(start + gas).find("group `gas` has no `ball`"), string::npos);
 }
 
@@ -236,8 +334,9 @@ TEST(Groups, AMassThatTheDefaultsCancelIsMissingWhereverTheyStand) {
 
 TEST(Groups, ABallThatComesFromTheDefaultsIsWholeToo) {
   const string groups = "groups: {gas: {count: 3, in: {min: [0, 0, 0], max: [9, 9, 9]}}}\n";
-  EXPECT_EQ(in_parts(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups)),
-            (Parts{{"4:10 gas", "`ball` has no `radius`", "expected `radius`: a number above 0 in m"}}));
+  EXPECT_EQ(
+      in_parts(errors_of(start + "defaults: {group: {ball: {mass: 1}}}\n" + groups)),
+      (Parts{{"4:10 gas", "`ball` has no `radius`", "expected `radius`: a number above 0 in m, or a map of keys"}}));
   EXPECT_EQ(errors_of(start + "defaults: {group: {ball: {mass: 1}}, ball: {radius: 1}}\n" + groups), "");
 }
 

@@ -111,6 +111,9 @@ const vector<Beyond> beyond_schemas = {
     {"there is no file", "what files there are"},
     {"at the start", "where things are"},
     {"not fit into the box", "how many balls a box holds"},
+    {"not fit into the ball", "how many balls a ball holds"},
+    {"not fit into the cylinder", "how many balls a cylinder holds"},
+    {"the radii go from", "two numbers against one another"},
     {"has no volume", "two vectors against one another"},
     {"is not above its min", "two vectors against one another"},
     {"the camera's target is where its eye is", "two vectors against one another"},
@@ -151,6 +154,8 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
   Validator validator("scene");
   const string file = validator.folder() + "/scene.yaml";
   std::ofstream(validator.folder() + "/box.stl") << "a mesh";
+  std::ofstream(validator.folder() + "/heap.csv") << "x_m,y_m,z_m,radius_m,mass_kg\n-5,30,0,0.1,1\n-6,30,0,0.1,1\n";
+
   set<string> visited, all;
   vector<Variation> variations;
   for (const string& scene : right_scenes()) {

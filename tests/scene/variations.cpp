@@ -159,7 +159,7 @@ planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0], motion: [{from: 0.5, unti
 walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
-        color: crimson, mesh: box.stl}
+        color: crimson, mesh: {file: box.stl, scale: 0.001, up: z, turn: [30, 0, 0]}}
   blue: {density: 700, radius: 0.1, position: [1, 1, 0], color: {by: speed, min: 1, max: 16, map: magma}}
 simulate: {duration: 1, engine: exact, rest_speed: 0.1, max_collisions: 9, contact: {mode: merge, quality: fast}}
 caption: "{title}, {time}, {run}, {collisions}, e = {restitution.default}"
@@ -197,6 +197,8 @@ groups:
   gas: {in: {min: [0, 1, 0], max: [2, 2, 2]}, arrange: lattice, speed: 1, count: 3}
   air: {in: {min: [0, 3, 0], max: [2, 4, 2]}, velocity: [1, 0, 0],
         ball: {density: 2, radius: 0.1, velocity: [0, 1, 0], restitution: 1, impulse: [0, 0, 1], color: red, mesh: box.stl}}
+  sand: {in: {cylinder: {radius: 1, height: 2}, position: [5, 12, 0]}, ball: {mass: 1, radius: {from: 0.05, to: 0.1}}}
+  fog: {in: {radius: 2, position: [12, 12, 0]}}
 planes: {floor: {point: [0, 0, 0], restitution: 1, color: tan, visible: true}}
 walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], restitution: 1, color: tan, visible: true}}
 obstacles: {post: {color: tan}}
@@ -207,7 +209,8 @@ simulate: {duration: 1}
 scene: 1
 balls: {former: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 groups:
-  gas: {count: 2, ball: {mass: 1, radius: 0.1}, members: [{position: [0, 3, 0], velocity: [1, 0, 0]}, {position: [1, 3, 0]}]}
+  gas: {count: 2, ball: {mass: 1, radius: 0.1}, members: [{position: [0, 3, 0], velocity: [1, 0, 0], radius: 0.2, mass: 3}, {position: [1, 3, 0]}]}
+  heap: {table: heap.csv, overlap: push, velocity: [1, 0, 0]}
 start: {run: first, at: 2}
 simulate: {duration: 1}
 )",

@@ -151,7 +151,7 @@ Problem poured(Entity count, double rate, double height) {
   problem.world.gravity = Vec3(0, -10, 0);
   for (Entity i = 0; i < count; ++i) problem.ball({0, height, 0}, Vec3::Zero(), 1, 0.1, 0.3);
   for (Entity i = 0; i < count; ++i) appear(problem, i, i / rate);
-  problem.world.pours = {{0, count, rate, {0, height, 0}, {Shape::box, {0.3, 0.1, 0.3}}, 5}};
+  problem.world.pours = {{0, count, rate, {0, height, 0}, {Shape::box, {0.4, 0.2, 0.4}}, 5}};
   problem.room({-0.5, 0, -0.5}, {0.5, 9, 0.5});
   problem.options.duration = 3;
   return problem;
@@ -181,7 +181,7 @@ TEST(Appearances, BallsPourOneAfterTheOtherWithoutOverlap) {
 TEST(Appearances, BallsOfAPourWaitInTurnWhereThereIsNoRoom) {
   // The place holds one ball at a time, and a ball takes sqrt(2 * 0.2 / 10) = 0.2 s to fall out of it.
   Problem problem = poured(8, 50, 6);
-  problem.world.pours[0].within = {Shape::box, {0, 0, 0}};
+  problem.world.pours[0].within = {Shape::box, {0.1, 0.1, 0.1}};
   problem.options.duration = 2;
   const vector<double> times = appearances(problem);
   for (int i = 0; i < 8; ++i) EXPECT_NEAR(times[size_t(i)], 0.2 * i, 0.0201) << i;

@@ -160,7 +160,7 @@ string restitution(const World& world) {
   string list;
   for (const PairRestitution& p : world.pairs)
     list += (list.empty() ? "" : ", ") + ("{between: [" + name(world, p.a_first)) + ", " + name(world, p.b_first) +
-            "], value: " + text(p.value) + "}";
+            "], value: " + (p.value ? text(*p.value) : string("none")) + "}";
   return out + (list.empty() ? "" : ", pairs: [" + list + "]") + "}\n";
 }
 

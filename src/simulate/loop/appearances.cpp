@@ -165,8 +165,9 @@ optional<Appearances::Admitted> Appearances::take_of_line(size_t k) {
 
   double tick = floor((now - from) * pour.rate);
   Random random(pour.seed, fmt::format("{}/{}", line.next, tick));
+  const Volume within{pour.within.shape, pour.within.half - Vec3::Constant(bodies_.world.radius[i])};
   for (int n = 0; n < tries_of_tick; ++n) {
-    const Vec3 x = pour.center + place_in(pour.within, random);
+    const Vec3 x = pour.center + place_in(within, random);
     if (!has_room(i, x)) continue;
     ++line.next;
     line.due = line.next < pour.count ? max(bodies_.world.appears[i + 1], now) : never;
