@@ -109,7 +109,7 @@ constexpr AbsentWord all_words[] = {
     {"legend|colormap|colour map|color map|colorbar|colour scale|color scale|heat map|gradient",
      "`color: {by: speed}` colours bodies by a quantity, and pictures have a legend.", "coloring|coloring.by"},
     {"trail|trace|tracer|path line|streak|tail", "`trails` are the paths of bodies during the last seconds.", "trails"},
-    {"vector|arrow|glyph", "`arrows` show velocities and forces at the bodies.", "arrows"},
+    {"vector|arrow|glyph", "`arrows` show velocities, momenta and forces at the bodies.", "arrows"},
     {"blink|glow|highlight|spark", "Bodies that collide flash with `flash: true`.", "flash"},
     {"blur|motion blur|exposure|exposure time|shutter speed",
      "Motion blur is `shutter`: the part of the interval between pictures in which a picture gathers light.",
