@@ -32,7 +32,7 @@ double ContactImpulses::time_in(size_t k, const Instant& from, const Instant& un
 
 void ContactImpulses::strike(const Instant& at, Entity i, Entity thing, double impulse) {
   for (size_t k = 0; k < sums_.size(); ++k)
-    if (watched_[k].window.has(at.hi) && counts(k, i, thing)) sums_[k].add(std::abs(impulse));
+    if (watched_[k].window.has(at.hi) && counts(k, i, thing)) sums_[k].add(impulse);
 }
 
 void ContactImpulses::spread(const Instant& from, const Instant& until, Entity i, Entity thing, double impulse) {

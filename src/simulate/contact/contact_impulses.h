@@ -32,7 +32,7 @@ class ContactImpulses {
       : world_(world), watched_(watched), sums_(watched.size()), held_(world.body_count()) {}
 
   bool any() const { return !sums_.empty(); }
-  /// Adds the impulse (N s) of body i and a thing at an instant.
+  /// Adds the impulse (N s) of body i and a thing at an instant. Below 0: it takes back a part of what was added.
   void strike(const Instant& at, Entity i, Entity thing, double impulse);
   /// The same, spread evenly over a time.
   void spread(const Instant& from, const Instant& until, Entity i, Entity thing, double impulse);

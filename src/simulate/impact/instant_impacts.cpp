@@ -509,7 +509,7 @@ void InstantImpacts::book(Moment& now) {
   // What strings and rods have passed on.
   for (uint32_t c = 0; c < now.set.rows(); ++c)
     if (const double pull = now.set.pull(c); pull != 0)
-      bodies_.contact_work.impulses.strike(bodies_.now, now.touching[c].a, now.touching[c].thing, pull);
+      bodies_.contact_work.impulses.strike(bodies_.now, now.touching[c].a, now.touching[c].thing, std::abs(pull));
 }
 
 }  // namespace carom

@@ -152,7 +152,10 @@ void ConstrainedMotion::book(const IslandStep& step) {
   bodies_.log.take_up(step.inverse_mass, absorbed.before, absorbed.after, absorbed.pairs, absorbed.impacts);
 
   for (size_t c = 0; c < absorbed.names.size(); ++c)
-    bodies_.contact_work.impulses.strike(step.at, absorbed.names[c].i, absorbed.names[c].e, absorbed.pairs[c].force);
+    bodies_.contact_work.impulses.strike(step.at, absorbed.names[c].i, absorbed.names[c].e,
+                                         std::abs(absorbed.pairs[c].force));
+  for (const ContactForce& impulse : all.stopped)
+    bodies_.contact_work.impulses.strike(step.at, impulse.a, impulse.b, impulse.force);
 
   for (const Entity i : all.struck) collapses_.count_in_turn(i, 1);
   if (all.work != 0) bodies_.log.add_carried_work(all.work);

@@ -261,6 +261,9 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   step.v = std::move(stopped);
   step.bookings.solutions.push_back(certificate);
   for (const ContactConstraint& p : kept) step.bookings.work += p.work();
+  for (size_t c = 0; bodies_.contact_work.impulses.any() && c < kept.size(); ++c)
+    if (const Contact& name = step.contacts.names[c]; !step.contacts.pairs[c].bilateral)
+      step.bookings.stopped.push_back({name.i, name.e, kept[c].force});
   return true;
 }
 

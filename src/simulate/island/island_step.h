@@ -118,6 +118,8 @@ struct IslandStep {
     vector<Collision> collisions;
     vector<Entity> struck;  // bodies with an impact in turn with a strike
     double work = 0;        // J, of moving things when separations end
+    // The impulses that end separations, where impulses are summed: N s in place of N, below 0 where they pull.
+    vector<ContactForce> stopped;
     vector<Unbalanced> unbalanced;
   } bookings;
 
