@@ -108,6 +108,10 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
   vector<ArrowScale> scales;
   if (scene.world.body_count() == 0) return scales;
   const double size = median_radius(scene.world);
+  const auto add = [&](ArrowScale::Kind kind, double greatest) {
+    scales.push_back({kind, rounded_up(greatest), longest * size, size});
+  };
+
   if (scene.overlay.velocity_arrows || scene.overlay.momentum_arrows) {
     double speed = 0;     // m/s
     double momentum = 0;  // kg m/s
@@ -116,14 +120,13 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
       speed = max(speed, expected);
       momentum = max(momentum, scene.world.mass[i] * expected);
     }
-    if (scene.overlay.velocity_arrows)
-      scales.push_back({ArrowScale::Kind::velocity, rounded_up(speed), longest * size, size});
-    if (scene.overlay.momentum_arrows)
-      scales.push_back({ArrowScale::Kind::momentum, rounded_up(momentum), longest * size, size});
+    if (scene.overlay.velocity_arrows) add(ArrowScale::Kind::velocity, speed);
+    if (scene.overlay.momentum_arrows) add(ArrowScale::Kind::momentum, momentum);
   }
+
   // Without gravity and forces no arrow is ever drawn.
   if (scene.overlay.force_arrows && !(scene.world.gravity.isZero(0) && scene.world.forces.empty()))
-    scales.push_back({ArrowScale::Kind::force, rounded_up(greatest_force(scene)), longest * size, size});
+    add(ArrowScale::Kind::force, greatest_force(scene));
   return scales;
 }
 

@@ -326,6 +326,8 @@ void read_call(const Call& call, string_view inside, string_view whole, span<con
   vector<string_view> arguments = arguments_of(inside);
   read_window(arguments, measure);
   if (call.form == MeasureForm::count) return read_count(trimmed(inside), whole, own, measure);
+
+  // One or two names, or a quantity.
   const bool of_things =
       call.form == MeasureForm::first_hit || call.form == MeasureForm::hits || call.form == MeasureForm::impulse;
   const bool empty = any_of(arguments, [](string_view text) { return text.empty(); });

@@ -146,11 +146,14 @@ PossibleCharts possible_charts(const FormerRun& former) {
   PossibleCharts charts;
   const string some = bodies_in_table(former.scene);
   for (const ChartSource& source : chart_sources) {
-    if (source.key == "trajectory" && !some.empty() && former.has(source.table) && !former.has_flights())
+    if (source.key == "trajectory" && !some.empty() && former.has(source.table) && !former.has_flights()) {
       charts.missing.push_back({string(source.chart), fmt::format("the run's {} has rows of {} alone, by the key "
                                                                   "output.{}.on",
                                                                   source.table, some, source.key)});
-    else if (former.has(source.table) || (source.follows_paths && former.has_flights()))
+      continue;
+    }
+
+    if (former.has(source.table) || (source.follows_paths && former.has_flights()))
       charts.names.push_back(source.chart);
     else
       charts.missing.push_back({string(source.chart), fmt::format("the run has no {}, which the key output.{} gives",

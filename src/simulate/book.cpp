@@ -98,6 +98,7 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       v_(initial.velocity),
       force_(world.body_count()),
       log_(options.max_collisions, options.record_collisions),
+      // What is watched.
       inside_(world.regions.size() * world.body_count()),
       lies_(world.body_count()),
       extremes_(options.watch.size()),

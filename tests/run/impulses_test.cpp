@@ -151,6 +151,7 @@ TEST(Impulses, OfARodAreThoseOfPushesAndPullsAlike) {
   double sum = 0, theta = angle, omega = 0;
   constexpr int steps = 200000;
   const double h = duration / steps;
+
   for (int k = 0; k < steps; ++k) {
     const auto force = [&](double at) { return std::abs(2 * g_10 * (3 * cos(at) - 2 * cos(angle))); };
     const double before = force(theta);
@@ -264,6 +265,7 @@ vector<double> deviations(double duration, const vector<string>& more = {}) {
   measures.insert(measures.end(), more.begin(), more.end());
   const MeasuredScene run = run_measured(yaml, measures);
   EXPECT_GT(run.tally.stepped_contact, 10);
+
   double mass = 0;
   for (const double of : scene.world.mass) mass += of;
   const Vec3 gained = momentum(scene.world, run.end) - momentum(scene.world, scene.initial);
@@ -295,6 +297,7 @@ TEST(Impulses, OfAGasOnItsWallsAreThePressureOfTheGasLaw) {
   const MeasuredScene run =
       run_measured(yaml, {"impulse(room.x_min)", "impulse(room.x_max)", "impulse(room)", "hits(gas, room)",
                           "mean(groups.gas.kinetic_J)", "impulse(gas, room.x_max)"});
+
   const Scene scene = load_text(yaml);
   const double gained = momentum(scene.world, run.end).x() - momentum(scene.world, scene.initial).x();
   EXPECT_NEAR(run.values[0] - run.values[1], gained, 1e-11);

@@ -156,10 +156,13 @@ TEST(Windows, AreRefusedWhereTheyAreWrong) {
       return string(error.what());
     }
   };
+
   EXPECT_EQ(fault("max(balls.b.y_m, from: 2, until: 1)"),
             "`max(balls.b.y_m, from: 2, until: 1)`: `until` is 1 s but `from` is 2 s; expected from < until");
   EXPECT_EQ(fault("hits(b, from: 4)"), "`hits(b, from: 4)`: `from` is 4 s but the scene ends at 4 s; expected less");
   EXPECT_EQ(fault("hits(b, from: -1)"), "`hits(b, from: -1)`: `from` is -1 s; expected at least 0");
+
+  // What is no time.
   EXPECT_EQ(fault("hits(b, from: soon)"),
             "`hits(b, from: soon)`: `soon` is no time; expected from: and seconds, such as from: 1.5, or let.NAME");
   EXPECT_EQ(fault("hits(b, from: 1, from: 2)"), "`hits(b, from: 1, from: 2)` has `from` twice");

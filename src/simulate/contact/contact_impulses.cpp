@@ -64,6 +64,7 @@ void ContactImpulses::add_path(const Instant& start, const Instant& until, const
   vector<ContactForce> found;
   for (size_t k = 0; k < sums.size(); ++k) {
     if (!(time_in(k, start, until) > 0)) continue;
+
     const double from = max(start, Instant{watched_[k].window.from, 0}) - start;
     const double to = min(until, Instant{watched_[k].window.until, 0}) - start;
     if (known != pair(from, to)) {

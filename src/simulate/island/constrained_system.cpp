@@ -534,6 +534,7 @@ bool ConstrainedSystem::add_integrals(const DenseMotion& motion, double from, do
     motion.at(from + point.at * (to - from), x, v);
     Certificate certificate;
     solve_rows(x, v, rows, certificate);
+
     for (size_t c = 0; c < rows.size(); ++c) {
       const bool rod = is_rod(world_, closed_[c].e);
       found[c] += point.weight * (to - from) * (rod ? rows[c].force : max(rows[c].force, 0.0));
