@@ -136,8 +136,8 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
   if (!run.has(file))
     throw StartError("it has neither flights nor a trajectory",
                      "run it with `output.flights: true`, or with `output.trajectory`");
-  if (const string some = bodies_in_table(run.scene); !run.has_flights() && !some.empty())
-    throw StartError(fmt::format("it has no flights, and its {} has rows of {} alone", table_name, some),
+  if (!run.has_flights() && !run.in_table.empty())
+    throw StartError(fmt::format("it has no flights, and its {} has rows of {} alone", table_name, run.in_table),
                      "run it with `output.flights: true`, or with `output.trajectory` without `on`");
 
   FormerState former;

@@ -321,6 +321,7 @@ TEST(Impulses, NameWhatIsWrong) {
       return string(error.what());
     }
   };
+
   EXPECT_EQ(fault(yaml, "impulse(flor)"), "`impulse(flor)`: nothing is named `flor`; did you mean `floor`?");
   EXPECT_EQ(fault(yaml, "impulse(a, b, c)"),
             "`impulse(a, b, c)`: expected one or two names, such as impulse(red, floor)");
