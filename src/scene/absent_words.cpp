@@ -152,8 +152,9 @@ constexpr AbsentWord all_words[] = {
      "Forces and motions begin at their `from` and end at `until`. Bodies exist from time 0.",
      "force.from|motion.from"},
     {"momentum|linear momentum|px|py|pz|conservation of momentum",
-     "`output.energy` lists the momentum of all bodies. An `impulse` gives a body momentum at time 0.",
-     "output.energy|impulse"},
+     "`output.energy` lists the momentum of all bodies, and `arrows` show that of each. An `impulse` gives a body "
+     "momentum at time 0.",
+     "output.energy|arrows|impulse"},
     {"orthographic|orthographic projection|orthogonal|parallel projection|isometric|projection|perspective|ortho",
      "Pictures are in perspective. A distant `eye` with a small `fov` comes close to a parallel projection.",
      "camera.eye|camera.fov"},
@@ -166,9 +167,10 @@ constexpr AbsentWord all_words[] = {
      "`speed`. A sweep may draw its values.",
      "seed|groups.arrange|groups.speed"},
     {"pressure|stress|load|weight|normal force|reaction|reaction force|contact force",
-     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. Pressure "
-     "is their sum over an area and a time.",
-     "output.contacts|output.collisions"},
+     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. The "
+     "measure "
+     "`impulse(wall)` sums both; pressure is that over the area and the time.",
+     "output.contacts|output.collisions|measures"},
     {"comment|include|import|extends|inherit",
      "A scene is one YAML file; `#` begins a comment. `defaults` holds shared values.", "defaults"},
 };
