@@ -167,9 +167,8 @@ constexpr AbsentWord all_words[] = {
      "`speed`. A sweep may draw its values.",
      "seed|groups.arrange|groups.speed"},
     {"pressure|stress|load|weight|normal force|reaction|reaction force|contact force",
-     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. The "
-     "measure "
-     "`impulse(wall)` sums both; pressure is that over the area and the time.",
+     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. Of "
+     "`measures` impulse(wall) sums both; pressure is that over the area and the time.",
      "output.contacts|output.collisions|measures"},
     {"comment|include|import|extends|inherit",
      "A scene is one YAML file; `#` begins a comment. `defaults` holds shared values.", "defaults"},

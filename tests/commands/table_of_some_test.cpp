@@ -192,6 +192,14 @@ TEST(NewMeasures, AreColumnsOfSummariesSweepsAndComparisons) {
       here.carom({"compare", "swept", "-o", "compared", "--measures", "push_N_s,mean(balls.b.kinetic_J)"});
   EXPECT_EQ(compare.code, 0) << compare.err;
 
+  // A window of collisions comes from their table: those at 0.5 and 1.5 s.
+  const Finished late =
+      here.carom({"compare", "swept", "-o", "late", "--measures", "hits(b, from: 1),hits(b, until: 0.4)"});
+  EXPECT_EQ(late.code, 0) << late.err;
+  const string table = here.read("late/summary.csv");
+  EXPECT_NE(table.find("\"hits(b, from: 1)\",\"hits(b, until: 0.4)\""), string::npos) << table;
+  EXPECT_NE(table.find(",1,0"), string::npos) << table;
+
   // What they have not is named.
   const Finished lacks = here.carom({"compare", "swept", "-o", "lacks", "--measures", "impulse(b)"});
   EXPECT_EQ(lacks.code, 1);
