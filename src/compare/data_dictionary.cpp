@@ -60,6 +60,8 @@ string meaning_of(const Measure& measure) {
 
     case MeasureForm::hits:
       return "number of collisions";
+    case MeasureForm::impulse:
+      return label_of(measure.name) + ": sum of the magnitudes of normal impulses, also in lasting contact";
     case MeasureForm::count:
       return "number of bodies at the run's end";
 
@@ -74,7 +76,7 @@ string meaning_of(const Measure& measure) {
       return fmt::format("the body that entered {} first", measure.things[0]);
 
     default:
-      return label_of(measure.name) + ", over the whole run";
+      return label_of(measure.name) + (measure.from.empty() && measure.until.empty() ? ", over the whole run" : "");
   }
 }
 

@@ -59,6 +59,12 @@ SeriesGroup read_bodies(const RunRecord& run, const vector<Measure>& measures) {
           group.columns[k].values.back() = quantity_of(measures[k].quantity, position, velocity, 1);
     });
   }
+
+  // The table may have rows of other bodies alone.
+  std::erase_if(group.columns, [](const SeriesColumn& column) {
+    return all_of(column.values, [](double value) { return std::isnan(value); });
+  });
+  if (group.columns.empty()) group.times.clear();
   return group;
 }
 

@@ -4,16 +4,20 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "files/run_folder.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
 #include "files/summary_columns.h"
 #include "render/mesh.h"
 #include "run/measure_scope.h"
+#include "run/stored_trajectory.h"
 #include "scene/formula.h"
 #include "scene/load.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
+#include "yaml/value_json.h"
 
 namespace carom {
 namespace {
@@ -82,7 +86,30 @@ bool StoredMeasures::has(const Measure& measure) {
   if (!all_of(measure.parts, [this](const Measure& part) { return has(part); })) return false;
   if (measure.form == MeasureForm::expression || measure.form == MeasureForm::given) return true;
   const char* table = table_of(measure);
-  return table != nullptr && has_file(table);
+  return table != nullptr && has_file(table) && lacking(measure).empty();
+}
+
+/// The bodies that trajectory.csv has rows of, if these are not all that the measure names. Empty: they are.
+string StoredMeasures::lacking(const Measure& measure) {
+  if (measure.form != MeasureForm::at_end && measure.form != MeasureForm::count) return {};
+
+  // The manifest says whether it may be so, and is read sooner than a scene.
+  const Manifest* of = manifest();
+  const auto outputs = of == nullptr ? nlohmann::ordered_json() : json_of_text(of->outputs);
+  const auto table = outputs.is_object() ? outputs.find("trajectory") : outputs.end();
+  if (table == outputs.end() || !table->is_object() || !table->contains("on") || (*table)["on"].is_null()) return {};
+
+  const string some = bodies_in_table(scene());
+  if (some.empty()) return {};
+  const vector<Entity>& written = scene().requested.trajectory->bodies;
+  try {
+    const EntityRange named = bodies_of(measure, scene());
+    for (Entity i = named.first; i < named.first + named.count; ++i)
+      if (!std::binary_search(written.begin(), written.end(), i)) return some;
+  } catch (const MeasureError&) {
+    // The scene does not have them. Their measure is undefined.
+  }
+  return {};
 }
 
 bool StoredMeasures::have(span<const Measure> measures) {
@@ -108,6 +135,11 @@ double StoredMeasures::number(const Measure& measure, const vector<string>& summ
     throw ExportError(fmt::format(
         "{} has no {}, needed for {}: run its scene.yaml again with that output, or with the measure in `measures`",
         path_, table, measure.name));
+  if (const string some = lacking(measure); !some.empty())
+    throw ExportError(
+        fmt::format("{}/trajectory.csv has rows of {} alone, which {} needs more of: run its scene.yaml "
+                    "again without `on` in `trajectory`, or with the measure in `measures`",
+                    path_, some, measure.name));
 
   switch (measure.form) {
     case MeasureForm::at_end:
@@ -187,9 +219,12 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
   StoredTable table(open_stored(folder_, "collisions.csv"));
   const auto time = table.find("time_s"), kind = table.find("kind"), a = table.find("a"), b = table.find("b");
   Meetings found{0, undefined};
+  const bool named = measure.from.starts_with("let.") || measure.until.starts_with("let.");
+  const TimeWindow window = window_of(measure, named ? scene().measures.numbers : map<string, double>{});
 
   while (table.next() != nullptr) {
     if (table.cell(kind) == "rest") continue;
+    if (!window.has(number_in(table.cell(time)).value_or(undefined))) continue;
     // A string that goes taut pulls at both of its bodies.
     const string other = table.cell(kind) == "string" ? second_body(table.cell(b)) : string();
     const auto has = [&](size_t name, bool first) {

@@ -41,6 +41,7 @@ class StoredMeasures {
   const Scene& scene();
   const vector<EndMotion>& ends();
   bool has(const Measure& measure);
+  string lacking(const Measure& measure);
   double number(const Measure& measure, const vector<string>& summary);
   double at_end(const Measure& measure);
   double quantity(const Measure& measure, size_t body);

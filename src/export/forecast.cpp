@@ -94,7 +94,7 @@ Forecast forecast(const Scene& scene) {
   for (const OutputKind& kind : output_kinds()) {
     if (!kind.asked(output)) continue;
     if (const WriterKind* writer = writer_named(kind.name)) bytes += writer->bytes(scene, instants(kind));
-    if (kind.name == "trajectory") rows += instants(kind) * bodies;
+    if (kind.name == "trajectory") rows += instants(kind) * rows_of(*output.trajectory, bodies);
   }
 
   // The pictures.

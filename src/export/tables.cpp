@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "export/bodies.h"
 #include "files/manifest.h"
 #include "files/summary_columns.h"
@@ -36,6 +38,14 @@ char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
     to = put_number(to, velocity[axis]);
   }
   return to;
+}
+
+/// The bodies that have rows in trajectory.csv.
+vector<Entity> bodies_in_rows(const Scene& scene) {
+  if (!scene.output.trajectory->bodies.empty()) return scene.output.trajectory->bodies;
+  vector<Entity> all(scene.world.body_count());
+  std::iota(all.begin(), all.end(), Entity{0});
+  return all;
 }
 
 /// Writes a comma and the name of a body, fixed thing or string. The cell of no_entity is empty.
@@ -78,22 +88,24 @@ optional<CollisionKind> collision_kind_named(string_view name) {
 }
 
 TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
-    : scene_(scene), file_(place, "trajectory.csv"), blocks_([this](Block& block) { write(block); }, blocks_alone) {
+    : scene_(scene),
+      bodies_(bodies_in_rows(scene)),
+      file_(place, "trajectory.csv"),
+      blocks_([this](Block& block) { write(block); }, blocks_alone) {
   if (!scene.output.trajectory->wide) {
     file_.write("time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
     return;
   }
 
   file_.write("time_s");
-  for (const BodyRange& range : scene.roster.bodies) {
-    for (Entity i = 0; i < range.count; ++i) {
-      for (const string_view column : motion_columns) {
-        char* to = file_.room(range.name.size() + member_size + column.size() + 2);
-        *to++ = ',';
-        to = put_member(to, range, range.first + i);
-        *to++ = '.';
-        file_.written(put_text(to, column));
-      }
+  for (const Entity body : bodies_) {
+    const BodyRange& range = scene.roster.range_of(body);
+    for (const string_view column : motion_columns) {
+      char* to = file_.room(range.name.size() + member_size + column.size() + 2);
+      *to++ = ',';
+      to = put_member(to, range, body);
+      *to++ = '.';
+      file_.written(put_text(to, column));
     }
   }
   file_.write("\n");
@@ -101,7 +113,7 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
 
 void TrajectoryTable::add(double time, const State& state, span<const ContactForce>) {
   constexpr double none = numeric_limits<double>::quiet_NaN();
-  const Entity bodies = scene_.world.body_count();
+  const auto bodies = Entity(bodies_.size());
 
   Entity first = 0;
   do {
@@ -111,7 +123,7 @@ void TrajectoryTable::add(double time, const State& state, span<const ContactFor
     block.parts.push_back(part);
 
     // Of a body that is gone there is no row.
-    for (Entity body = first; body < first + part.count; ++body) {
+    for (const Entity body : span(bodies_).subspan(first, part.count)) {
       block.motions.push_back({state.position[body], state.velocity[body]});
       if (is_gone(state, body)) block.motions.back().position.x() = none;
     }
@@ -146,16 +158,17 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   char time_text[number_size];
   const string_view time_cell(time_text, size_t(put_number(time_text, part.time) - time_text));
 
-  const BodyRange* range = &scene_.roster.range_of(part.first);
-  for (Entity body = part.first; body < part.first + part.count; ++body, ++motion) {
+  const BodyRange* range = &scene_.roster.range_of(bodies_[part.first]);
+  for (const Entity body : span(bodies_).subspan(part.first, part.count)) {
+    const Motion& at = *motion++;
     while (body >= range->first + range->count) ++range;
-    if (!isfinite(motion->position.x())) continue;
+    if (!isfinite(at.position.x())) continue;
 
     char* to = file_.room(number_size + range->name.size() + member_size + motion_size + 2);
     to = put_text(to, time_cell);
     *to++ = ',';
     to = put_member(to, *range, body);
-    to = put_motion(to, motion->position, motion->velocity);
+    to = put_motion(to, at.position, at.velocity);
     *to++ = '\n';
     file_.written(to);
   }
@@ -169,7 +182,7 @@ void TrajectoryTable::write_wide(const Part& part, const Motion* motion) {
     else
       file_.write(",,,,,,");
   }
-  if (part.first + part.count == scene_.world.body_count()) file_.write("\n");
+  if (part.first + part.count == bodies_.size()) file_.write("\n");
 }
 
 CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)

@@ -25,6 +25,7 @@ optional<CollisionKind> collision_kind_named(string_view name);
 /// Wide form: a row for each instant, six columns for each body:
 /// time_s,<name>.x_m,<name>.y_m,<name>.z_m,<name>.vx_m_per_s,<name>.vy_m_per_s,<name>.vz_m_per_s,...
 /// A body that has merged into another has no rows from then on. In a wide table its cells are empty.
+/// With `on` only those bodies have rows, or columns.
 class TrajectoryTable : public Writer {
  public:
   TrajectoryTable(const FilePlace& place, const Scene& scene);
@@ -36,7 +37,7 @@ class TrajectoryTable : public Writer {
     /// In m and m/s. Not finite: the body has merged into another.
     Vec3 position, velocity;
   };
-  /// The motions of bodies first, first + 1, ... at one instant.
+  /// The motions of `count` of the bodies with rows at one instant, from number `first` of these on.
   struct Part {
     double time;  // s
     Entity first, count;
@@ -51,6 +52,7 @@ class TrajectoryTable : public Writer {
   void write_wide(const Part& part, const Motion* motion);
 
   const Scene& scene_;
+  const vector<Entity> bodies_;  // those with rows, ascending
   OutputFile file_;
   /// Last, because its thread writes into file_.
   Conveyor<Block> blocks_;

@@ -43,7 +43,7 @@ unique_ptr<Writer> open(FolderWriter& folder, const Scene& scene, const ModelMak
 }
 
 double trajectory_bytes(const Scene& scene, double instants) {
-  const double bodies = scene.world.body_count(), rows = instants * bodies;
+  const double bodies = rows_of(*scene.output.trajectory, scene.world.body_count()), rows = instants * bodies;
   return scene.output.trajectory->wide ? rows * motion_bytes + bodies * 6 * (name_bytes + 8) + instants * time_bytes
                                        : rows * (motion_bytes + time_bytes + name_bytes);
 }

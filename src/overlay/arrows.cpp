@@ -14,11 +14,28 @@ constexpr double head_radius = 0.3, head_length = 0.9;  // median radii
 constexpr double least_width = 2;                       // pixels
 constexpr double usual_gravity = 9.80665;               // m/s^2
 
+struct ArrowText {
+  string_view name, unit;
+  uint32_t rgb;
+};
+
+// In the order of ArrowScale::Kind.
+constexpr array<ArrowText, 3> arrow_texts = {
+    {{"velocity", "m/s", 0x2b7bba}, {"momentum", "kg m/s", 0x3d9a50}, {"force", "N", 0xd9541e}}};
+
 /// The force (N) of gravity and the scene's forces.
 Vec3 force_on(const Moment& moment, Entity body) {
   const double mass = mass_now(moment.scene.world, moment.state, body);
   return mass * free_acceleration(moment.scene.world, body, moment.state.time, moment.state.position[body],
                                   moment.state.velocity[body]);
+}
+
+/// What arrows of this kind show of a body, in the kind's unit.
+Vec3 shown_by(ArrowScale::Kind kind, const Moment& moment, Entity body) {
+  const Vec3& velocity = moment.state.velocity[body];
+  if (kind == ArrowScale::Kind::velocity) return velocity;
+  if (kind == ArrowScale::Kind::force) return force_on(moment, body);
+  return mass_now(moment.scene.world, moment.state, body) * velocity;
 }
 
 double greatest_force(const Scene& scene) {
@@ -76,21 +93,40 @@ void add_arrow(const Vec3& start, const Vec3& arrow, double size, const Color& c
 }  // namespace
 
 Color ArrowScale::color() const {
-  return from_rgb(kind == Kind::velocity ? 0x2b7bba : 0xd9541e);
+  return from_rgb(arrow_texts[size_t(kind)].rgb);
+}
+
+string_view ArrowScale::name() const {
+  return arrow_texts[size_t(kind)].name;
+}
+
+string_view ArrowScale::unit() const {
+  return arrow_texts[size_t(kind)].unit;
 }
 
 vector<ArrowScale> arrow_scales(const Scene& scene) {
   vector<ArrowScale> scales;
   if (scene.world.body_count() == 0) return scales;
   const double size = median_radius(scene.world);
-  if (scene.overlay.velocity_arrows) {
-    double greatest = 0;
-    for (Entity i = 0; i < scene.world.body_count(); ++i) greatest = max(greatest, expected_speed(scene, i));
-    scales.push_back({ArrowScale::Kind::velocity, rounded_up(greatest), longest * size, size});
+  const auto add = [&](ArrowScale::Kind kind, double greatest) {
+    scales.push_back({kind, rounded_up(greatest), longest * size, size});
+  };
+
+  if (scene.overlay.velocity_arrows || scene.overlay.momentum_arrows) {
+    double speed = 0;     // m/s
+    double momentum = 0;  // kg m/s
+    for (Entity i = 0; i < scene.world.body_count(); ++i) {
+      const double expected = expected_speed(scene, i);
+      speed = max(speed, expected);
+      momentum = max(momentum, scene.world.mass[i] * expected);
+    }
+    if (scene.overlay.velocity_arrows) add(ArrowScale::Kind::velocity, speed);
+    if (scene.overlay.momentum_arrows) add(ArrowScale::Kind::momentum, momentum);
   }
+
   // Without gravity and forces no arrow is ever drawn.
   if (scene.overlay.force_arrows && !(scene.world.gravity.isZero(0) && scene.world.forces.empty()))
-    scales.push_back({ArrowScale::Kind::force, rounded_up(greatest_force(scene)), longest * size, size});
+    add(ArrowScale::Kind::force, greatest_force(scene));
   return scales;
 }
 
@@ -102,9 +138,7 @@ void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<S
     const Vec3& x = moment.state.position[body];
 
     for (const ArrowScale& scale : scales) {
-      const bool is_force = scale.kind == ArrowScale::Kind::force;
-      const Vec3 arrow =
-          scale.length / scale.typical * (is_force ? force_on(moment, body) : moment.state.velocity[body]);
+      const Vec3 arrow = scale.length / scale.typical * shown_by(scale.kind, moment, body);
       const double length = arrow.norm();
       if (length < 0.25 * moment.pixel_at(x)) continue;
 

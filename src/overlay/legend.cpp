@@ -41,9 +41,8 @@ Legend legend_of(const ColorRule& rule) {
 }
 
 Legend::Entry entry_of(const ArrowScale& scale) {
-  const bool force = scale.kind == ArrowScale::Kind::force;
-  return {scale.color(), fmt::format("{}: {} {} is {:.3g} m", force ? "force" : "velocity", number_text(scale.typical),
-                                     force ? "N" : "m/s", scale.length)};
+  return {scale.color(),
+          fmt::format("{}: {} {} is {:.3g} m", scale.name(), number_text(scale.typical), scale.unit(), scale.length)};
 }
 
 }  // namespace

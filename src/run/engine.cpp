@@ -35,6 +35,7 @@ ExactOptions exact_options(const SimulatorRequest& request) {
   options.record_collisions = request.recording.collisions;
   options.record_paths = request.recording.paths;
   options.watch = request.recording.watch;
+  options.impulses = request.recording.impulses;
 
   options.stop_at_rest = simulate.stop_at_rest;
   options.stop_collisions = simulate.stop_collisions.value_or(options.stop_collisions);

@@ -1,6 +1,7 @@
 #pragma once
 // The choice of simulator and steps for a scene, with the reason. The table in engine.cpp makes each simulator.
 
+#include "physics/watched_impulse.h"
 #include "scene/engines.h"
 #include "simulate/simulator.h"
 #include "std.h"
@@ -65,7 +66,8 @@ void check_flights(const Scene& scene);
 struct Recording {
   bool collisions = false;
   bool paths = false;
-  vector<WatchedQuantity> watch{};  // for Simulator::extremes()
+  vector<WatchedQuantity> watch{};    // for Simulator::extremes()
+  vector<WatchedImpulse> impulses{};  // for Simulator::impulses()
 };
 
 /// The scene's simulator at time 0. `scene` must outlive it. Throws SimulationError.

@@ -15,6 +15,7 @@
 #include "files/stored_file.h"
 #include "files/stored_table.h"
 #include "run/replay.h"
+#include "run/stored_trajectory.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -71,6 +72,7 @@ FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFil
 
   // Its scene, with the outputs that it has.
   run.scene = file.scene();
+  run.in_table = bodies_in_table(run.scene);
   if (sha256(run.scene.resolved) != manifest->scene_sha256)
     refuse_until_rerun(folder, "its scene.yaml is not the one that was run");
   run.scene.output = restricted(run.scene.output, output_names_of(*manifest));

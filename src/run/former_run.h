@@ -14,6 +14,8 @@ struct FormerRun {
   Manifest manifest;
   /// From its scene.yaml, with the outputs that the folder has.
   Scene scene;
+  /// The bodies that have rows in its trajectory.csv, by its `on`. Empty: all have.
+  string in_table;
 
   /// Whether its manifest has a file of this name.
   bool has(string_view file) const;

@@ -47,6 +47,22 @@ pair<string_view, string_view> call_of(string_view text) {
   return {text.substr(0, open), text.substr(open + 1, text.size() - open - 2)};
 }
 
+/// The arguments of a call without those of its window, and the window as text: " from 1 to 2 s". Both parts may be
+/// empty.
+pair<string_view, string> without_window(string_view inside) {
+  string_view from, until;
+  for (const auto& [key, end] : {pair{string_view(", until: "), &until}, pair{string_view(", from: "), &from}}) {
+    const size_t at = inside.rfind(key);
+    if (at == string_view::npos) continue;
+    *end = inside.substr(at + key.size());
+    inside = inside.substr(0, at);
+  }
+  string text;
+  if (!from.empty()) text += fmt::format(" from {}", from);
+  if (!until.empty()) text += fmt::format(" to {}", until);
+  return {inside, text.empty() ? text : text + " s"};
+}
+
 }  // namespace
 
 bool compares(double value, Relation relation, double limit) {
@@ -73,7 +89,8 @@ string_view meaning_of(Quantity quantity) {
 
 string_view unit_of(string_view column) {
   const auto [call, inside] = call_of(column);
-  if (call == "max" || call == "min") return unit_of(inside);
+  if (call == "max" || call == "min" || call == "mean") return unit_of(without_window(inside).first);
+  if (call == "impulse") return "N s";
   if (call == "time_of_max" || call == "time_of_min" || call == "first") return "s";
   if (!call.empty() || column.starts_with('=')) return {};
   const UnitText* text = unit_text(column);
@@ -81,14 +98,18 @@ string_view unit_of(string_view column) {
 }
 
 string label_of(string_view column) {
-  const auto [call, inside] = call_of(column);
+  const auto [call, whole] = call_of(column);
   if (column.starts_with('=') || call == "hits" || call == "count") return string(column);
-  if (call == "first") return fmt::format("first hit of {} (s)", inside);
+  const auto [inside, window] = without_window(whole);
+  if (call == "first") return fmt::format("first hit of {}{} (s)", inside, window);
+  if (call == "impulse") return fmt::format("impulse of {}{} (N s)", inside, window);
   if (!call.empty()) {
     string of = label_of(inside);
+    const size_t unit = min(of.size(), of.rfind(" ("));
     const bool time = call.starts_with("time_of_");
-    if (time) of.resize(min(of.size(), of.rfind(" (")));
-    return time ? fmt::format("time of the {}imum {} (s)", call.substr(8), of) : fmt::format("{}imum {}", call, of);
+    if (time) return fmt::format("time of the {}imum {}{} (s)", call.substr(8), of.substr(0, unit), window);
+    return fmt::format("{} {}{}{}", call == "mean" ? "mean" : fmt::format("{}imum", call), of.substr(0, unit), window,
+                       of.substr(unit));
   }
 
   const UnitText* text = unit_text(column);

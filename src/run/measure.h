@@ -3,7 +3,10 @@
 // - a number of summary.csv: `energy_lost_J`
 // - a body's position or motion at the run's end: `balls.red.y_m`
 // - an extreme of it over the run: `max(balls.red.y_m)`, `min(...)`, `time_of_max(...)`, `time_of_min(...)`
+// - its mean over time: `mean(balls.red.y_m)`
 // - the collisions of two things: `first(red, blue)`, in s, and `hits(red, blue)`
+// - the impulse of their contact: `impulse(red, blue)`, in N s
+// - one of these five over a part of the run: `max(balls.red.y_m, from: 1, until: 2)`
 // - a region: `regions.pocket.entries`, `.inside`, `.first_s`, `.first`
 // - the number of bodies with a property at the end: `count(y_m < 0)`
 // - a value of the scene: `let.h`, or the name of a measure of its own
@@ -39,8 +42,10 @@ enum class MeasureForm : uint8_t {
   least,          // min(...)
   greatest_time,  // time_of_max(...), s
   least_time,     // time_of_min(...), s
+  mean,           // mean(...)
   first_hit,      // first(a, b), s
   hits,           // hits(a, b)
+  impulse,        // impulse(a, b), N s
   entries,        // of a region: how many bodies entered
   inside,         // of a region: how many are inside at the end
   first_entry,    // of a region: the time of the first entry, s
@@ -61,7 +66,10 @@ struct Measure {
   /// Both empty: all bodies.
   string kind, body;
   Quantity quantity = Quantity::x;
-  /// Of hits and first_hit: one or two names. Of a region, a value of `let` or a measure of the scene: its name.
+  /// Of a form with a window: its ends, a number (s) or "let.NAME". Empty: those of the run.
+  string from{}, until{};
+  /// Of hits, first_hit and impulse: one or two names. Of a region, a value of `let` or a measure of the scene: its
+  /// name.
   vector<string> things{};
   Relation relation = Relation::less;
   /// Of count: what the quantity is compared with. Of an expression: the whole. Both are expressions in which `m0`,

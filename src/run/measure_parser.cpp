@@ -10,6 +10,7 @@
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -38,12 +39,14 @@ struct Call {
   string_view example;
 };
 
-constexpr array<Call, 7> calls = {{{"max", MeasureForm::greatest, "max(balls.NAME.y_m)"},
+constexpr array<Call, 9> calls = {{{"max", MeasureForm::greatest, "max(balls.NAME.y_m)"},
                                    {"min", MeasureForm::least, "min(balls.NAME.y_m)"},
                                    {"time_of_max", MeasureForm::greatest_time, "time_of_max(balls.NAME.y_m)"},
                                    {"time_of_min", MeasureForm::least_time, "time_of_min(balls.NAME.y_m)"},
+                                   {"mean", MeasureForm::mean, "mean(balls.NAME.y_m)"},
                                    {"first", MeasureForm::first_hit, "first(red, blue)"},
                                    {"hits", MeasureForm::hits, "hits(red, blue)"},
+                                   {"impulse", MeasureForm::impulse, "impulse(red, floor)"},
                                    {"count", MeasureForm::count, "count(y_m < 0)"}}};
 
 struct RegionText {
@@ -122,6 +125,40 @@ vector<string_view> arguments_of(string_view text) {
   return parts;
 }
 
+/// "from" or "until" of an argument such as "from: 1", and its value. Empty: it is another argument.
+pair<string_view, string_view> window_end(string_view argument) {
+  const size_t colon = argument.find(':');
+  const string_view key = trimmed(argument.substr(0, min(colon, argument.size())));
+  if (colon == string_view::npos || (key != "from" && key != "until")) return {};
+  return {key, trimmed(argument.substr(colon + 1))};
+}
+
+/// Takes the arguments that are ends of a window into the measure, and out of the list.
+void read_window(vector<string_view>& arguments, Measure& measure) {
+  std::erase_if(arguments, [&](string_view argument) {
+    const auto [key, value] = window_end(argument);
+    if (key.empty()) return false;
+    if (measure.form == MeasureForm::count)
+      throw MeasureError(fmt::format("{}: bodies are counted at the end of the run; remove {}",
+                                     in_backticks(measure.name), in_backticks(argument)));
+
+    string& end = key == "from" ? measure.from : measure.until;
+    if (!end.empty()) throw MeasureError(fmt::format("{} has {} twice", in_backticks(measure.name), in_backticks(key)));
+    const bool named = value.starts_with("let.") && value.size() > 4;
+    if (!named && !parse_number(value))
+      throw MeasureError(fmt::format("{}: {} is no time; expected {}: and seconds, such as {}: 1.5, or let.NAME",
+                                     in_backticks(measure.name), in_backticks(value), key, key));
+    end = value;
+    return true;
+  });
+}
+
+/// Ends of a window as text, after other arguments.
+string window_text(const Measure& measure) {
+  return (measure.from.empty() ? "" : ", from: " + measure.from) +
+         (measure.until.empty() ? "" : ", until: " + measure.until);
+}
+
 /// The end of what opens at `open`, a parenthesis: the place of the one that closes it.
 size_t closing_of(string_view text, size_t open) {
   int depth = 0;
@@ -194,9 +231,11 @@ class FormulaParts {
     while (open < text_.size() && is_blank(text_[open])) ++open;
     if (open < text_.size() && text_[open] == '(' && find_call(word) != nullptr) {
       const size_t close = closing_of(text_, open);
-      const auto arguments = arguments_of(text_.substr(open + 1, close - open - 1));
-      const bool arithmetic = (word == "max" || word == "min") &&
-                              (arguments.size() > 1 || arguments.front().find('(') != string_view::npos);
+      auto arguments = arguments_of(text_.substr(open + 1, close - open - 1));
+      std::erase_if(arguments, [](string_view argument) { return !window_end(argument).first.empty(); });
+      const bool arithmetic =
+          (word == "max" || word == "min") &&
+          (arguments.size() > 1 || (!arguments.empty() && arguments.front().find('(') != string_view::npos));
       if (!arithmetic) return part(close + 1);
     } else if (find_summary_column(word) != nullptr || contains(own_, word)) {
       return part(end);
@@ -287,14 +326,18 @@ void read_count(string_view inside, string_view whole, span<const string> own, M
 /// `whole`: the text of the measure, of which `inside` is a part.
 void read_call(const Call& call, string_view inside, string_view whole, span<const string> own, Measure& measure) {
   measure.form = call.form;
+  vector<string_view> arguments = arguments_of(inside);
+  read_window(arguments, measure);
   if (call.form == MeasureForm::count) return read_count(trimmed(inside), whole, own, measure);
-  const auto arguments = arguments_of(inside);
-  const bool of_things = call.form == MeasureForm::first_hit || call.form == MeasureForm::hits;
+
+  // One or two names, or a quantity.
+  const bool of_things =
+      call.form == MeasureForm::first_hit || call.form == MeasureForm::hits || call.form == MeasureForm::impulse;
   const bool empty = any_of(arguments, [](string_view text) { return text.empty(); });
-  if (empty || arguments.size() > (of_things ? 2 : 1))
+  if (empty || arguments.empty() || arguments.size() > (of_things ? 2 : 1))
     throw MeasureError(fmt::format("{}: expected {}, such as {}", in_backticks(measure.name),
                                    of_things ? "one or two names" : "one quantity", call.example));
-  measure.name = fmt::format("{}({})", call.name, joined(arguments, ", "));
+  measure.name = fmt::format("{}({}{})", call.name, joined(arguments, ", "), window_text(measure));
   if (!of_things) return read_quantity(arguments.front(), false, measure);
   measure.things.assign(arguments.begin(), arguments.end());
 }

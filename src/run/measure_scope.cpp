@@ -5,11 +5,13 @@
 
 #include <charconv>
 
+#include "scene/engines.h"
 #include "scene/formula.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
+#include "yaml/values.h"
 
 namespace carom {
 namespace {
@@ -129,6 +131,28 @@ vector<EntityRange> things_named(string_view name, const Measure& measure, const
                                  other_names(name, names)));
 }
 
+TimeWindow window_of(const Measure& measure, const map<string, double>& numbers) {
+  const auto end = [&](const string& text, double otherwise) {
+    if (text.empty()) return otherwise;
+    if (const auto number = parse_number(text)) return *number;
+    const auto found = numbers.find(text.substr(string_view("let.").size()));
+    if (found != numbers.end()) return found->second;
+    vector<string_view> names;
+    for (const auto& [name, number] : numbers) names.push_back(name);
+    throw MeasureError(fmt::format("{}: there is no {}{}", in_backticks(measure.name), in_backticks(text),
+                                   other_names(text.substr(4), names)));
+  };
+
+  const TimeWindow window{end(measure.from, 0), end(measure.until, infinity)};
+  if (window.from < 0)
+    throw MeasureError(
+        fmt::format("{}: `from` is {} s; expected at least 0", in_backticks(measure.name), shortest(window.from)));
+  if (!(window.from < window.until))
+    throw MeasureError(fmt::format("{}: `until` is {} s but `from` is {} s; expected from < until",
+                                   in_backticks(measure.name), shortest(window.until), shortest(window.from)));
+  return window;
+}
+
 vector<uint32_t> regions_named(const Measure& measure, const Scene& scene) {
   const string& name = measure.things[0];
   vector<uint32_t> regions;
@@ -159,6 +183,14 @@ Measure defined(const string& name, const Scene& scene) {
   return measure;
 }
 
+/// Throws MeasureError unless the measure's window begins within the run.
+void check_window(const Measure& measure, const Scene& scene) {
+  const TimeWindow window = window_of(measure, scene.measures.numbers);
+  if (measure.from.empty() || window.from < scene.simulate.duration) return;
+  throw MeasureError(fmt::format("{}: `from` is {} s but the scene ends at {} s; expected less",
+                                 in_backticks(measure.name), shortest(window.from), shortest(scene.simulate.duration)));
+}
+
 /// Throws MeasureError unless the scene has all that the measure names. `above`: the scene's own measures of which it
 /// is a part.
 void check(const Measure& measure, const Scene& scene, vector<string>& above) {
@@ -176,12 +208,21 @@ void check(const Measure& measure, const Scene& scene, vector<string>& above) {
     case MeasureForm::least:
     case MeasureForm::greatest_time:
     case MeasureForm::least_time:
+    case MeasureForm::mean:
     case MeasureForm::count:
       bodies_of(measure, scene);
-      return;
+      return check_window(measure, scene);
 
+    case MeasureForm::impulse:
+      if (engine_of(scene.world, scene.simulate) == Engine::book)
+        throw MeasureError(
+            fmt::format("{}: the engine `book` has no impulse of lasting contact; expected `engine: exact` "
+                        "or `stepped`, or hits(a, b)",
+                        in_backticks(measure.name)));
+      [[fallthrough]];
     case MeasureForm::first_hit:
     case MeasureForm::hits:
+      check_window(measure, scene);
       for (const string& name : measure.things) things_named(name, measure, scene);
       return;
 

@@ -1,18 +1,14 @@
 #pragma once
 // The names in measures to the bodies, fixed things and strings of a scene.
 
-#include "physics/entity.h"
+#include "physics/extremes.h"
+#include "physics/watched_impulse.h"
 #include "run/measure.h"
 #include "std.h"
 
 namespace carom {
 
 struct Scene;
-
-struct EntityRange {
-  Entity first = 0, count = 0;
-  bool has(Entity e) const { return e >= first && e - first < count; }
-};
 
 /// A span of a part's text in the text of the whole. An empty one: the whole part.
 TextSpan within(const TextSpan& part, const TextSpan& span);
@@ -30,6 +26,9 @@ EntityRange bodies_of(const Measure& measure, const Scene& scene);
 /// What a measure's name stands for: bodies, members of a group, fixed things, the room or one of its sides, strings.
 /// Empty: a thing with `repeat: 0`. Throws MeasureError.
 vector<EntityRange> things_named(string_view name, const Measure& measure, const Scene& scene);
+
+/// The window of a measure, with the numbers that it may name. Throws MeasureError.
+TimeWindow window_of(const Measure& measure, const map<string, double>& numbers);
 
 /// The regions of a measure of regions: one, or all members of a repeated one, perhaps none; ascending. Throws
 /// MeasureError.

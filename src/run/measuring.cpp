@@ -14,9 +14,10 @@ bool any_has(const vector<EntityRange>& ranges, Entity e) {
   return any_of(ranges, [&](const EntityRange& range) { return range.has(e); });
 }
 
-bool is_extreme(MeasureForm form) {
+/// Whether it is an extreme, or a mean, along paths.
+bool is_along_paths(MeasureForm form) {
   return form == MeasureForm::greatest || form == MeasureForm::least || form == MeasureForm::greatest_time ||
-         form == MeasureForm::least_time;
+         form == MeasureForm::least_time || form == MeasureForm::mean;
 }
 
 bool is_of_region(MeasureForm form) {
@@ -26,7 +27,8 @@ bool is_of_region(MeasureForm form) {
 
 WatchedQuantity watched_by(const Measure& measure, const Scene& scene) {
   const EntityRange bodies = bodies_of(measure, scene);
-  return {measure.quantity, bodies.first, bodies.count};
+  return {measure.quantity, bodies.first, bodies.count, window_of(measure, scene.measures.numbers),
+          measure.form == MeasureForm::mean};
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ void Measuring::prepare(const Measure& measure) {
   for (const Measure& part : measure.parts) prepare(part);
   check_names(measure, scene_);
 
-  if (is_extreme(measure.form)) {
+  if (is_along_paths(measure.form)) {
     const WatchedQuantity watched = watched_by(measure, scene_);
     if (!contains(watched_, watched)) watched_.push_back(watched);
   }
@@ -54,9 +56,14 @@ void Measuring::prepare(const Measure& measure) {
       none_of(visits_, [&](const Visits& visits) { return visits.name == measure.things[0]; }))
     visits_.push_back({measure.things[0], regions_named(measure, scene_), 0, undefined});
 
+  if (measure.form == MeasureForm::impulse)
+    if (WatchedImpulse impulse = impulse_of(measure); !contains(impulses_, impulse))
+      impulses_.push_back(std::move(impulse));
+
   if (measure.form != MeasureForm::first_hit && measure.form != MeasureForm::hits) return;
-  if (any_of(meetings_, [&](const Meeting& m) { return m.things == measure.things; })) return;
-  Meeting meeting{measure.things, things_named(measure.things[0], measure, scene_), {}, 0, undefined};
+  const TimeWindow window = window_of(measure, scene_.measures.numbers);
+  if (any_of(meetings_, [&](const Meeting& m) { return m.things == measure.things && m.window == window; })) return;
+  Meeting meeting{measure.things, window, things_named(measure.things[0], measure, scene_), {}, 0, undefined};
   if (measure.things.size() > 1) meeting.b = things_named(measure.things[1], measure, scene_);
   meetings_.push_back(std::move(meeting));
 }
@@ -74,7 +81,7 @@ void Measuring::record(span<const Collision> collisions, span<const RegionCrossi
 
   for (Meeting& meeting : meetings_) {
     for (const Collision& c : collisions) {
-      if (c.kind == CollisionKind::rest) continue;
+      if (c.kind == CollisionKind::rest || !meeting.window.has(c.time)) continue;
       const auto has = [&](size_t name, bool first) {
         const vector<EntityRange>& named = name == 0 ? meeting.a : meeting.b;
         // A string that goes taut pulls at both of its bodies.
@@ -121,6 +128,13 @@ double Measuring::counted(const Measure& measure, const MeasuredRun& run) const 
   return count;
 }
 
+WatchedImpulse Measuring::impulse_of(const Measure& measure) const {
+  WatchedImpulse impulse{things_named(measure.things[0], measure, scene_), nullopt,
+                         window_of(measure, scene_.measures.numbers)};
+  if (measure.things.size() > 1) impulse.b = things_named(measure.things[1], measure, scene_);
+  return impulse;
+}
+
 const Extremes& Measuring::extremes(const Measure& measure, const MeasuredRun& run) const {
   const auto found = ranges::find(watched_, watched_by(measure, scene_));
   return run.extremes[size_t(found - watched_.begin())];
@@ -143,7 +157,9 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
     return *ranges::find_if(visits_, [&](const Visits& v) { return v.name == measure.things[0]; });
   };
   const auto meeting = [&]() -> const Meeting& {
-    return *ranges::find_if(meetings_, [&](const Meeting& m) { return m.things == measure.things; });
+    const TimeWindow window = window_of(measure, scene_.measures.numbers);
+    return *ranges::find_if(meetings_,
+                            [&](const Meeting& m) { return m.things == measure.things && m.window == window; });
   };
 
   switch (measure.form) {
@@ -160,6 +176,10 @@ double Measuring::value(const Measure& measure, const MeasuredRun& run) const {
       return extremes(measure, run).greatest.time;
     case MeasureForm::least_time:
       return extremes(measure, run).least.time;
+    case MeasureForm::mean:
+      return extremes(measure, run).mean();
+    case MeasureForm::impulse:
+      return run.impulses[size_t(ranges::find(impulses_, impulse_of(measure)) - impulses_.begin())];
 
     case MeasureForm::first_hit:
       return meeting().first;

@@ -15,6 +15,7 @@ struct MeasuredRun {
   const State& state;  // the last one
   const Summary& summary;
   span<const Extremes> extremes;  // by Measuring::watched()
+  span<const double> impulses;    // N s, by Measuring::impulses()
 };
 
 class Measuring {
@@ -26,6 +27,8 @@ class Measuring {
   bool needs_collisions() const { return !meetings_.empty(); }
   /// The quantities with extremes, which the simulator has to watch.
   const vector<WatchedQuantity>& watched() const { return watched_; }
+  /// The contacts whose impulses the simulator has to sum.
+  const vector<WatchedImpulse>& impulses() const { return impulses_; }
   /// Takes collisions and crossings of regions, each in order.
   void record(span<const Collision> collisions, span<const RegionCrossing> crossings);
   /// The values of the measures, in their order.
@@ -37,6 +40,7 @@ class Measuring {
   /// The collisions between two things, or of one thing with anything.
   struct Meeting {
     vector<string> things;
+    TimeWindow window;
     vector<EntityRange> a, b;  // of the names in `things`
     double count = 0;
     double first;  // s, NaN: none
@@ -63,6 +67,7 @@ class Measuring {
   double at_end(const Measure& measure, Entity body, const State& end) const;
   double evaluated(const Measure& measure, const MeasuredRun& run) const;
   double counted(const Measure& measure, const MeasuredRun& run) const;
+  WatchedImpulse impulse_of(const Measure& measure) const;
   const Extremes& extremes(const Measure& measure, const MeasuredRun& run) const;
 
   const Scene& scene_;
@@ -71,6 +76,7 @@ class Measuring {
   vector<Meeting> meetings_;
   vector<Visits> visits_;
   vector<WatchedQuantity> watched_;
+  vector<WatchedImpulse> impulses_;
 };
 
 }  // namespace carom

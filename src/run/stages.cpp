@@ -119,8 +119,12 @@ Recording Stages::recording() const {
     recording.paths = recording.paths || paths;
     recording.collisions = recording.collisions || scene.output.needs_collisions() ||
                            stage->measuring.needs_collisions() || (paths && drawings_show_collisions(scene));
+
+    // What the measures of all scenes need, in the order of the scenes.
     const vector<WatchedQuantity>& watched = stage->measuring.watched();
     recording.watch.insert(recording.watch.end(), watched.begin(), watched.end());
+    const vector<WatchedImpulse>& impulses = stage->measuring.impulses();
+    recording.impulses.insert(recording.impulses.end(), impulses.begin(), impulses.end());
   }
   return recording;
 }
@@ -190,12 +194,19 @@ void Stages::take_measures(size_t i, const Simulated& done, RunResult& result) c
           fmt::format("the motion differs: {} collisions, not {}", result.summary.collisions, former->collisions));
     result.facts.measures = former->measures;
   } else {
-    size_t first = 0;
-    for (size_t k = 0; k < i; ++k)
-      if (stages_[k]) first += stages_[k]->measuring.watched().size();
+    // Those of this scene follow those of the scenes before it.
+    size_t first = 0, first_impulse = 0;
+    for (size_t k = 0; k < i; ++k) {
+      if (!stages_[k]) continue;
+      first += stages_[k]->measuring.watched().size();
+      first_impulse += stages_[k]->measuring.impulses().size();
+    }
+
     const vector<Extremes> all = done.simulator->extremes();
-    const auto own = span(all).subspan(first, stage.measuring.watched().size());
-    result.facts.measures = stage.measuring.values({done.simulator->state(), result.summary, own});
+    const vector<double> impulses = done.simulator->impulses();
+    result.facts.measures = stage.measuring.values(
+        {done.simulator->state(), result.summary, span(all).subspan(first, stage.measuring.watched().size()),
+         span(impulses).subspan(first_impulse, stage.measuring.impulses().size())});
   }
 
   for (const OwnMeasure& own : stage.scene.measures.own)

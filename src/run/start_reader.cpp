@@ -136,6 +136,9 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
   if (!run.has(file))
     throw StartError("it has neither flights nor a trajectory",
                      "run it with `output.flights: true`, or with `output.trajectory`");
+  if (!run.has_flights() && !run.in_table.empty())
+    throw StartError(fmt::format("it has no flights, and its {} has rows of {} alone", table_name, run.in_table),
+                     "run it with `output.flights: true`, or with `output.trajectory` without `on`");
 
   FormerState former;
   for (Entity body = 0; body < run.scene.world.body_count(); ++body)

@@ -46,7 +46,7 @@ class ChartReader {
     if (former_.has_flights()) return paths();
     if (former_.has("energy.csv")) energy();
     ++parts_done_;
-    if (former_.has("trajectory.csv")) trajectory();
+    if (former_.has("trajectory.csv") && former_.in_table.empty()) trajectory();
   }
 
  private:
@@ -144,7 +144,15 @@ class ChartReader {
 
 PossibleCharts possible_charts(const FormerRun& former) {
   PossibleCharts charts;
+  const string& some = former.in_table;
   for (const ChartSource& source : chart_sources) {
+    if (source.key == "trajectory" && !some.empty() && former.has(source.table) && !former.has_flights()) {
+      charts.missing.push_back({string(source.chart), fmt::format("the run's {} has rows of {} alone, by the key "
+                                                                  "output.{}.on",
+                                                                  source.table, some, source.key)});
+      continue;
+    }
+
     if (former.has(source.table) || (source.follows_paths && former.has_flights()))
       charts.names.push_back(source.chart);
     else

@@ -4,6 +4,7 @@
 #include "run/measure.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "yaml/joined.h"
 
 namespace carom {
 
@@ -26,9 +27,18 @@ TrajectoryLayout::TrajectoryLayout(const StoredTable& table)
   }
 }
 
+string bodies_in_table(const Scene& scene) {
+  const optional<TrajectoryOutput>& written = scene.requested.trajectory;
+  return written && written->bodies.size() < scene.world.body_count() ? string(joined(written->on, ", ")) : string();
+}
+
 StoredTrajectory::StoredTrajectory(Descriptor file, const Scene& scene)
     : table_(std::move(file)), layout_(table_), row_(table_.next()) {
-  for (Entity body = 0; body < scene.world.body_count(); ++body) names_.push_back(scene.roster.name(body));
+  const optional<TrajectoryOutput>& written = scene.requested.trajectory;
+  if (written) bodies_ = written->bodies;
+  for (Entity body = 0; bodies_.empty() && body < scene.world.body_count(); ++body)
+    names_.push_back(scene.roster.name(body));
+  for (const Entity body : bodies_) names_.push_back(scene.roster.name(body));
 }
 
 bool StoredTrajectory::next() {

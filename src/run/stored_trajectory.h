@@ -41,6 +41,9 @@ struct ForeignRow : ExportError {
   ForeignRow() : ExportError("trajectory.csv has a row that is not one of this scene's") {}
 };
 
+/// The bodies that have rows in the scene's trajectory.csv, as in its `on`. Empty: all have.
+string bodies_in_table(const Scene& scene);
+
 /// The motions of a scene's bodies, instant by instant. One row is in memory.
 class StoredTrajectory {
  public:
@@ -55,14 +58,15 @@ class StoredTrajectory {
   /// empty cells. Throws ForeignRow.
   template <typename Take>
   void read(const Take& take) {
-    Entity body = 0;
+    size_t body = 0;  // of those with rows
     for (; is_here(); row_ = table_.next()) {
       if (row_->size() != table_.columns().size()) throw ForeignRow();
       layout_.for_each(*row_, [&](string_view name, size_t first) {
         // Wide, a row has every body.
         while (body < names_.size() && names_[body] != name && !layout_.is_wide()) ++body;
         if (body == names_.size() || names_[body] != name) throw ForeignRow();
-        take(body++, *row_, first);
+        take(bodies_.empty() ? Entity(body) : bodies_[body], *row_, first);
+        ++body;
       });
       if (layout_.is_wide() && body != names_.size()) throw ForeignRow();
     }
@@ -73,7 +77,8 @@ class StoredTrajectory {
 
   StoredTable table_;
   TrajectoryLayout layout_;
-  vector<string> names_;  // by body
+  vector<Entity> bodies_;  // those with rows; empty: all
+  vector<string> names_;   // of the bodies with rows
   /// The first row that has not been read. Null: none.
   const vector<string_view>* row_;
   string instant_;

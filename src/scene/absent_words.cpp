@@ -114,7 +114,7 @@ constexpr AbsentWord all_words[] = {
     {"legend|colormap|colour map|color map|colorbar|colour scale|color scale|heat map|gradient",
      "`color: {by: speed}` colours bodies by a quantity, and pictures have a legend.", "coloring|coloring.by"},
     {"trail|trace|tracer|path line|streak|tail", "`trails` are the paths of bodies during the last seconds.", "trails"},
-    {"vector|arrow|glyph", "`arrows` show velocities and forces at the bodies.", "arrows"},
+    {"vector|arrow|glyph", "`arrows` show velocities, momenta and forces at the bodies.", "arrows"},
     {"blink|glow|highlight|spark", "Bodies that collide flash with `flash: true`.", "flash"},
     {"blur|motion blur|exposure|exposure time|shutter speed",
      "Motion blur is `shutter`: the part of the interval between pictures in which a picture gathers light.",
@@ -168,8 +168,9 @@ constexpr AbsentWord all_words[] = {
      "Forces and motions begin at their `from` and end at `until`. Bodies exist from time 0.",
      "force.from|motion.from"},
     {"momentum|linear momentum|px|py|pz|conservation of momentum",
-     "`output.energy` lists the momentum of all bodies. An `impulse` gives a body momentum at time 0.",
-     "output.energy|impulse"},
+     "`output.energy` lists the momentum of all bodies, and `arrows` show that of each. An `impulse` gives a body "
+     "momentum at time 0.",
+     "output.energy|arrows|impulse"},
     {"orthographic|orthographic projection|orthogonal|parallel projection|isometric|projection|perspective|ortho",
      "Pictures are in perspective. A distant `eye` with a small `fov` comes close to a parallel projection.",
      "camera.eye|camera.fov"},
@@ -182,9 +183,9 @@ constexpr AbsentWord all_words[] = {
      "its radii, and rand(i) in expressions. A sweep may draw its values.",
      "seed|groups.arrange|groups.speed|groups.ball.radius|let"},
     {"pressure|stress|load|weight|normal force|reaction|reaction force|contact force",
-     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. Pressure "
-     "is their sum over an area and a time.",
-     "output.contacts|output.collisions"},
+     "`output.contacts` lists the forces of lasting contact, and `output.collisions` the impulses of impacts. Of "
+     "`measures` impulse(wall) sums both; pressure is that over the area and the time.",
+     "output.contacts|output.collisions|measures"},
     {"comment|include|import|extends|inherit",
      "A scene is one YAML file; `#` begins a comment. `defaults` holds shared values.", "defaults"},
 };

@@ -30,7 +30,9 @@ vector<Excess> excesses(const Output& output, double duration, double bodies, co
   vector<Excess> found;
   for (const OutputKind& kind : output_kinds()) {
     if (kind.rows.empty() || !kind.asked(output)) continue;
-    const double instants = ceil(duration / kind.every(output)) + 1, rows = instants * bodies;
+    const double instants = ceil(duration / kind.every(output)) + 1;
+    const double rows = instants * (kind.name == "trajectory" ? rows_of(*output.trajectory, bodies) : bodies);
+
     const uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
     if (rows > double(most_rows)) {
       found.push_back({&kind, rows, string(kind.rows), most_rows});

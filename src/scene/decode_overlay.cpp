@@ -82,6 +82,7 @@ void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, 
   overlay.trails = decode_trails(whole, inventory, scene.world, diagnostics);
   overlay.flash = whole.flag("flash").value_or(false);
   overlay.velocity_arrows = lists(whole.find("arrows"), "velocity");
+  overlay.momentum_arrows = lists(whole.find("arrows"), "momentum");
   overlay.force_arrows = lists(whole.find("arrows"), "force");
   overlay.shutter = whole.number("shutter").value_or(0);
   if (diagnostics.empty()) check_colors(inventory, scene, diagnostics);

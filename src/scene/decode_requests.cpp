@@ -89,6 +89,12 @@ class Requests {
     const View view(node, kind_named("output"), key.place);
     fill(&out, view);
 
+    if (out.trajectory && inventory_.fits) {
+      const Node* on = view.part("trajectory").find("on");
+      if (auto bodies = find_bodies(on, inventory_, "it has no rows", diagnostics_))
+        out.trajectory->bodies = std::move(*bodies);
+    }
+
     // The pictures.
     if (out.frames) check_window(view.part("frames"), out.frames->from, out.frames->until);
     if (out.video) check_video(view.part("video"), *out.video);

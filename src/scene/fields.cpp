@@ -49,9 +49,9 @@ constexpr Field scene_fields[] = {
     row("caption", "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. A text that begins with a brace needs quotes. true: the title and the time.", "\"{title}, t = {time} s\"", {.type = Type::text_or_flag, .title = "Text in the pictures", .drawn = true}),
     row("trails", "The paths of bodies during the last seconds, which fade with age.", "{seconds: 0.5}", {.type = Type::part_or_flag, .of = "trails", .drawn = true}),
     row("flash", "Whether bodies glow white for 0.1 s of film after a collision, and fade to their colour.", "true", {.type = Type::flag, .title = "Flash of collisions", .drawn = true}),
-    row("arrows", "Arrows at the bodies. velocity; force: gravity and `forces`, without contact. The legend has their scale.", "[velocity]", {.type = Type::names, .of = "velocity|force", .drawn = true}),
+    row("arrows", "Arrows at the bodies. velocity; momentum: mass times velocity; force: gravity and `forces`, without contact. The legend has their scale.", "[velocity]", {.type = Type::names, .of = "velocity|momentum|force", .drawn = true}),
     row("shutter", "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", "0.5", {.range = {0, 1}, .title = "Open part of the interval between pictures", .drawn = true}),
-    row("measures", "Measures of the run by name, columns of summary.csv: a number of summary.csv, a quantity at the end (balls.red.y_m), max, min, time_of_max or time_of_min of one over the run, first(a, b) in s, hits(a, b), regions.NAME.entries, inside, first_s or first, count(y_m < 0). Or an expression of these that begins with =.", "{height_m: max(balls.red.y_m), share: '= hits(red, blue) / collisions'}", {.type = Type::texts, .title = "Measures of the run"}),
+    row("measures", "Measures of the run by name, columns of summary.csv: a number of summary.csv, a quantity at the end (balls.red.y_m), max, min, time_of_max, time_of_min or mean of one over the run, first(a, b) in s, hits(a, b), impulse(a, b) in N s, of these over a part of the run with from and until such as max(balls.red.y_m, from: 1, until: 2), regions.NAME.entries, inside, first_s or first, count(y_m < 0). Or an expression of these that begins with =.", "{height_m: max(balls.red.y_m), share: '= hits(red, blue) / collisions'}", {.type = Type::texts, .title = "Measures of the run"}),
     row("output", "What the run writes. Default: trajectory, collisions and energy, no pictures.", "{trajectory: {every: 0.01}, collisions: true, energy: true}", {.type = Type::part, .of = "output"}),
 };
 
@@ -60,9 +60,6 @@ constexpr Field restitution_fields[] = {
     row<RestitutionKeys, &RestitutionKeys::combine>("combine", "How two bodies' coefficients combine into the pair's; book is e1 e2 / 2.", "minimum", {.of = "average|minimum|maximum|product|geometric_mean|mass_weighted|book", .title = "Rule for two coefficients"}),
     row("pairs", "Pairs with a coefficient of their own; the last match wins.", "[{between: [red, floor], value: 0.5}]", {.type = Type::list, .of = "pair"}),
 };
-
-// A name, a group's member, or a side of the room.
-constexpr string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
 
 constexpr Field pair_fields[] = {
     row<PairKeys, &PairKeys::between>("between", "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", "[red, floor]", {.type = Type::two_names, .needed = true, .title = "Two names", .pattern = reference}),

@@ -71,6 +71,14 @@ bool take(const View& view, const Field& field, const Node*& value) {
   return value != nullptr;
 }
 
+bool take(const View& view, const Field& field, vector<string>& value) {
+  const Node* node = view.find(field);
+  if (node == nullptr || node->bad) return false;
+  value.clear();
+  for (const Node& item : node->items) value.push_back(item.text);
+  return true;
+}
+
 bool take(const View& view, const Field& field, Color& value) {
   return put(as_color(view.find(field)), value);
 }
@@ -107,6 +115,10 @@ Json json_value(const Field&, const Rectangle& value) {
 
 Json json_value(const Field&, const Node* value) {
   return value != nullptr ? json_of(*value) : Json();
+}
+
+Json json_value(const Field&, const vector<string>& value) {
+  return value.empty() ? Json() : Json(value);
 }
 
 Json json_value(const Field&, const Color& value) {

@@ -34,6 +34,8 @@ bool take(const View& view, const Field& field, Size& value);
 bool take(const View& view, const Field& field, Rectangle& value);
 bool take(const View& view, const Field& field, Color& value);
 bool take(const View& view, const Field& field, BodyColor& value);
+/// Names.
+bool take(const View& view, const Field& field, vector<string>& value);
 /// The value with its place, bad or not: names, a file.
 bool take(const View& view, const Field& field, const Node*& value);
 /// The index of a choice.
@@ -47,6 +49,8 @@ nlohmann::ordered_json json_value(const Field& field, const Rectangle& value);
 nlohmann::ordered_json json_value(const Field& field, const Color& value);
 nlohmann::ordered_json json_value(const Field& field, const BodyColor& value);
 nlohmann::ordered_json json_value(const Field& field, const Node* value);
+/// Null: there are none.
+nlohmann::ordered_json json_value(const Field& field, const vector<string>& value);
 string yaml_of(double value);
 string yaml_of(const Vec3& value);
 string yaml_of(const Color& value);

@@ -1,6 +1,7 @@
 #pragma once
 // The keys of `output`: what a scene requests a run to write. Their rows are in output_kinds.cpp.
 
+#include "physics/entity.h"
 #include "std.h"
 
 namespace carom {
@@ -18,7 +19,13 @@ optional<Size> size_named(string_view name);
 struct TrajectoryOutput {
   double every = 1.0 / 30;  // s
   bool wide = false;
+  vector<string> on{};      // names as in the file; none: all bodies
+  vector<Entity> bodies{};  // those of `on`, ascending; empty: all
 };
+/// How many of `bodies` have a row at an instant.
+inline double rows_of(const TrajectoryOutput& trajectory, double bodies) {
+  return trajectory.bodies.empty() ? bodies : double(trajectory.bodies.size());
+}
 struct EnergyOutput {
   double every = 1.0 / 30;  // s
 };

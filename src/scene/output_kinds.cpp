@@ -21,6 +21,7 @@ constexpr Range image_side{16, 16384};
 constexpr Field trajectory_fields[] = {
     row<TrajectoryOutput, &TrajectoryOutput::every>("every", "Time between rows.", "0.01", {.unit = "s", .range = above_0, .title = "Time between rows"}),
     row<TrajectoryOutput, &TrajectoryOutput::wide>("layout", "long: a row for each body and time; wide: a row for each time.", "wide", {.type = Type::choice, .of = "long|wide"}),
+    row_if_given<TrajectoryOutput, &TrajectoryOutput::on>("on", "Balls, bodies, groups and members that have rows. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that have rows", .pattern = reference}),
 };
 
 constexpr Field energy_fields[] = {
@@ -143,7 +144,7 @@ constexpr OutputMember flag = {[](const Output& output) { return output.*member;
 
 constexpr OutputKind all_kinds[] = {
     {.name = "trajectory",
-     .doc = "trajectory.csv: position and velocity of every body.",
+     .doc = "trajectory.csv: position and velocity of bodies.",
      .example = "{every: 0.01}",
      .keys = trajectory_fields,
      .keys_doc = "trajectory.csv.",

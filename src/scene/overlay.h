@@ -33,7 +33,7 @@ struct Overlay {
   string caption;
   optional<Trails> trails;
   bool flash = false;  // of bodies that collide
-  bool velocity_arrows = false, force_arrows = false;
+  bool velocity_arrows = false, momentum_arrows = false, force_arrows = false;
   /// The part of the interval between pictures in which the shutter is open, 0 to 1.
   double shutter = 0;
   /// Numbers of forces in World::forces. Their springs are not drawn.

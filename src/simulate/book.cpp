@@ -41,7 +41,7 @@ class BookSimulator final : public Simulator {
   span<const PathPiece> paths() const override { return pieces_; }
   span<const RegionCrossing> crossings() const override { return crossings_; }
   const Tally& tally() const override { return log_.tally(); }
-  vector<Extremes> extremes() const override { return extremes_; }
+  vector<Extremes> extremes() const override;
   string save() override;
   void restore(string_view bytes) override;
 
@@ -64,6 +64,7 @@ class BookSimulator final : public Simulator {
   void handle_fixed(Entity i, Entity surface, const Vec3& point, const Vec3& normal);
   void record(const Collision& collision);
   void take_extremes();
+  void integrate(size_t k, double from, double sign, Extremes& found) const;
 
   const World& world_;
   const BookOptions options_;
@@ -84,6 +85,8 @@ class BookSimulator final : public Simulator {
   vector<uint8_t> lies_;       // by body: its last piece has no velocity
   optional<RunEnd> end_;       // in the last frame done
   vector<Extremes> extremes_;  // by options_.watch, at the frames
+  // The same: the sums over bodies at the start and the end of the last frame.
+  vector<array<double, 2>> sums_;
 };
 
 BookSimulator::BookSimulator(const World& world, const State& initial, const BookOptions& options)
@@ -95,9 +98,11 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
       v_(initial.velocity),
       force_(world.body_count()),
       log_(options.max_collisions, options.record_collisions),
+      // What is watched.
       inside_(world.regions.size() * world.body_count()),
       lies_(world.body_count()),
-      extremes_(options.watch.size()) {
+      extremes_(options.watch.size()),
+      sums_(options.watch.size()) {
   // What it does not have.
   if (!world.appears.empty())
     throw SimulationError("the engine `book` has all bodies from the start: use `engine: exact`, or remove `appear`");
@@ -112,9 +117,38 @@ BookSimulator::BookSimulator(const World& world, const State& initial, const Boo
 void BookSimulator::take_extremes() {
   for (size_t k = 0; k < extremes_.size(); ++k) {
     const WatchedQuantity& watched = options_.watch[k];
-    for (Entity i = watched.first; i < watched.first + watched.count; ++i)
-      extremes_[k].take(quantity_of(watched.quantity, x_[i], v_[i], world_.mass[i]), frame_time(frames_));
+    double sum = 0;
+    for (Entity i = watched.first; i < watched.first + watched.count; ++i) {
+      const double value = quantity_of(watched.quantity, x_[i], v_[i], world_.mass[i]);
+      sum += value;
+      if (watched.window.has(frame_time(frames_))) extremes_[k].take(value, frame_time(frames_));
+    }
+
+    sums_[k] = {sums_[k].back(), sum};
+    if (frames_ > 0) integrate(k, frame_time(frames_ - 1), 1, extremes_[k]);
   }
+}
+
+/// Adds the integral of a watched quantity over the last frame, from a time (s) of it on, times `sign`. Between frames
+/// it is a straight line.
+void BookSimulator::integrate(size_t k, double from, double sign, Extremes& found) const {
+  const WatchedQuantity& watched = options_.watch[k];
+  const double begin = frame_time(frames_ - 1), length = frame_time(frames_) - begin;
+  const double first = max(from, watched.window.from), last = min(frame_time(frames_), watched.window.until);
+  if (!(first < last)) return;
+  const double middle = (0.5 * (first + last) - begin) / length;
+  found.integral.add(sign * (last - first) * (sums_[k].front() + middle * (sums_[k].back() - sums_[k].front())));
+  found.seconds.add(sign * (last - first) * double(watched.count));
+}
+
+/// The last frame may end after the present time.
+vector<Extremes> BookSimulator::extremes() const {
+  vector<Extremes> all = extremes_;
+  const optional<RunEnd>& end = log_.tally().end;
+  const double time = end ? min(time_, end->time) : time_;
+  for (size_t k = 0; k < all.size(); ++k)
+    if (frames_ > 0 && frame_time(frames_) - time > rounding_) integrate(k, time, -1, all[k]);
+  return all;
 }
 
 void BookSimulator::record(const Collision& collision) {
@@ -323,7 +357,7 @@ void BookSimulator::advance_to(double time) {
 template <typename Archive>
 void BookSimulator::keep(Archive& archive) {
   archive.same(options_.step, options_.as_printed, options_.record_collisions, options_.record_paths);
-  archive.sized(x_, v_, inside_, lies_, extremes_);
+  archive.sized(x_, v_, inside_, lies_, extremes_, sums_);
   archive(frames_, time_, log_, crossings_, pieces_, end_);
 }
 

@@ -4,6 +4,7 @@
 
 #include "physics/contact_quality.h"
 #include "physics/integrator.h"
+#include "physics/watched_impulse.h"
 #include "simulate/simulator.h"
 #include "simulate/tolerances.h"
 #include "std.h"
@@ -33,8 +34,9 @@ struct ExactOptions {
   bool record_paths = false;      // false: there is no buffer for paths()
   // What ends the run before the duration, beside regions of the World.
   bool stop_at_rest = false;
-  uint64_t stop_collisions = 0;     // 0: none
-  vector<WatchedQuantity> watch{};  // for extremes()
+  uint64_t stop_collisions = 0;       // 0: none
+  vector<WatchedQuantity> watch{};    // for extremes()
+  vector<WatchedImpulse> impulses{};  // for impulses()
 };
 
 /// `world` must outlive the simulator. `initial` is at time 0, before the world's impulses. The simulator's own state

@@ -47,6 +47,9 @@ class Simulator {
   virtual const Tally& tally() const = 0;  // up to time()
   /// The extremes of the watched quantities from time 0 to time(), in the order in which they are watched.
   virtual vector<Extremes> extremes() const { return {}; }
+  /// The sums of impulses (N s) that are watched over the run, in the order in which they are watched. To be called at
+  /// its end: before, the present steps of crowds are missing.
+  virtual vector<double> impulses() const { return {}; }
   virtual Effort effort() const { return {}; }  // up to the present; zero where it is not counted
   /// At time(), ordered by a, then b. Valid until the next advance_to.
   virtual span<const ContactForce> contacts() { return {}; }

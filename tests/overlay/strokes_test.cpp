@@ -291,6 +291,34 @@ TEST(Arrows, StartAtTheSurfaceAndAreAsLongAsTheirLegend) {
   EXPECT_EQ(strokes.back().to_radius, 0);
 }
 
+TEST(Arrows, OfMomentumAreAsLongAsMassTimesVelocity) {
+  const Scene scene = load_text(
+      "scene: 1\nsimulate: {duration: 1}\noutput: {frames: true}\ngravity: [0, 0, 0]\narrows: [velocity, momentum]\n"
+      "balls:\n  light: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [0, 4, 0]}\n"
+      "  heavy: {mass: 5, radius: 0.1, position: [1, 0, 0], velocity: [2, 0, 0]}\n");
+
+  const vector<ArrowScale> scales = arrow_scales(scene);
+  ASSERT_EQ(scales.size(), 2u);
+  EXPECT_EQ(scales[0].typical, 4);
+  EXPECT_EQ(scales[1].typical, 10);
+  EXPECT_EQ(scales[1].kind, ArrowScale::Kind::momentum);
+  const vector<Legend> legends = legends_of(scene);
+  ASSERT_EQ(legends.size(), 1u);
+  EXPECT_EQ(legends[0].entries[0].name, "velocity: 4 m/s is 0.6 m");
+  EXPECT_EQ(legends[0].entries[1].name, "momentum: 10 kg m/s is 0.6 m");
+  EXPECT_FALSE(legends[0].entries[0].color == legends[0].entries[1].color);
+
+  // A head and a shaft each: of the light ball 4 m/s and 4 kg m/s, of the heavy one 2 m/s and 10 kg m/s.
+  const History history(scene, picture_needs(scene));
+  const vector<Stroke> strokes = DrawingMaker(scene, history, size).at(scene.initial, camera_of(scene)).strokes;
+  ASSERT_EQ(strokes.size(), 8u);
+  const auto length = [&](size_t arrow) { return (strokes[2 * arrow + 1].to - strokes[2 * arrow].from).norm(); };
+  EXPECT_NEAR(length(0), 0.6, 1e-15);
+  EXPECT_NEAR(length(1), 0.24, 1e-15);
+  EXPECT_NEAR(length(2), 0.3, 1e-15);
+  EXPECT_NEAR(length(3), 0.6, 1e-15);
+}
+
 TEST(Arrows, OfForceAreGravityAndForcesTogether) {
   const Scene scene = load_text(ball_scene("gravity: [0, -10, 0]\nforces: [{uniform: [15, 0, 0]}]\narrows: [force]\n"));
   const History history(scene, picture_needs(scene));

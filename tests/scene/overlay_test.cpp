@@ -148,6 +148,8 @@ TEST(Arrows, AreOfVelocityAndForce) {
   const Scene both = load_text(balls + "arrows: [force, velocity]\n");
   EXPECT_TRUE(both.overlay.velocity_arrows && both.overlay.force_arrows);
   EXPECT_FALSE(load_text(balls + "arrows: [force]\n").overlay.velocity_arrows);
+  const Scene momentum = load_text(balls + "arrows: [momentum]\n");
+  EXPECT_TRUE(momentum.overlay.momentum_arrows && !momentum.overlay.velocity_arrows);
   EXPECT_NE(errors_of(balls + "arrows: [forces]\n").find("did you mean `force`?"), string::npos);
 }
 

@@ -93,6 +93,7 @@ const vector<Beyond> beyond_schemas = {
     {"does not meet itself", "two names against one another"},
     {"is a fixed thing: no force acts on it", "what a name stands for"},
     {"is a fixed thing: it has no trail", "what a name stands for"},
+    {"is a fixed thing: it has no rows", "what a name stands for"},
     {"is a fixed thing: it enters no region", "what a name stands for"},
     {"no region is named", "which names there are"},
     {"no string is tied to it", "what a name stands for"},

@@ -132,7 +132,7 @@ regions:
   crate: {box: [1, 1, 1], position: [3, 3, 0], action: stop}
   below: {plane: {point: [0, -1, 0], normal: [0, -1, 0]}}
 simulate: {duration: 1, stop: [rest, {collisions: 100}, {region: pocket}]}
-output: {regions: true, trajectory: {every: 0.1}}
+output: {regions: true, trajectory: {every: 0.1, on: [red]}}
 )",
     R"(
 scene: 1

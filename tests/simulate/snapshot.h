@@ -68,7 +68,8 @@ class BitHash {
     add(time, region, body, enters);
   }
   void one(const Extremes& extremes) {
-    const auto& [least, greatest] = extremes;
+    const auto& [least, greatest, integral, seconds] = extremes;
+    add(integral.value(), seconds.value());
     for (const Extreme& extreme : {least, greatest}) {
       const auto& [value, time, then] = extreme;
       add(value, time, then);
@@ -118,7 +119,7 @@ class BitHash {
 struct Shown {
   string error;     // empty: none
   double time = 0;  // s
-  uint64_t state = 0, collisions = 0, paths = 0, crossings = 0, tally = 0, extremes = 0, contacts = 0;
+  uint64_t state = 0, collisions = 0, paths = 0, crossings = 0, tally = 0, extremes = 0, impulses = 0, contacts = 0;
 
   friend bool operator==(const Shown&, const Shown&) = default;
 };
@@ -126,7 +127,8 @@ struct Shown {
 inline std::ostream& operator<<(std::ostream& out, const Shown& shown) {
   return out << "t = " << shown.time << " " << shown.error << std::hex << " state " << shown.state << " collisions "
              << shown.collisions << " paths " << shown.paths << " crossings " << shown.crossings << " tally "
-             << shown.tally << " extremes " << shown.extremes << " contacts " << shown.contacts;
+             << shown.tally << " extremes " << shown.extremes << " impulses " << shown.impulses << " contacts "
+             << shown.contacts;
 }
 
 inline uint64_t hash_of_bits(const auto& values) {
@@ -144,6 +146,7 @@ inline Shown shown_by(Simulator& simulator) {
   shown.crossings = hash_of_bits(simulator.crossings());
   shown.tally = hash_of_bits(simulator.tally());
   shown.extremes = hash_of_bits(simulator.extremes());
+  shown.impulses = hash_of_bits(simulator.impulses());
   shown.contacts = hash_of_bits(simulator.contacts());
   return shown;
 }

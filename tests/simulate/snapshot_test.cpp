@@ -21,7 +21,10 @@ MakeSimulator maker(const Problem& problem) {
 Problem recorded(Problem problem) {
   problem.options.record_collisions = true;
   problem.options.record_paths = true;
-  problem.options.watch = {{Quantity::y, 0, problem.world.body_count()}, {Quantity::speed, 0, 1}};
+  const Entity bodies = problem.world.body_count();
+  problem.options.watch = {{Quantity::y, 0, bodies}, {Quantity::speed, 0, 1}, {Quantity::speed, 0, 1, {1, 2}, true}};
+  problem.options.impulses = {{{{0, problem.world.entity_count()}}},
+                              {{{0, 1}}, vector<EntityRange>{{1, bodies}}, {1, 4}}};
   return problem;
 }
 

@@ -18,7 +18,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       ties(given),
       neighbours(world),
       islands(given.body_count()),
-      contact_work(given.body_count(), log) {}
+      contact_work(world, moving.any(), options.impulses, log) {}
 
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const Flight p = flights[a];

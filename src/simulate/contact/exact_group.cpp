@@ -54,7 +54,7 @@ void ExactGroup::await_step(Entity i) {
 void ExactGroup::unite(Entity a, Entity b) {
   Islands& islands = bodies_.islands;
   if (!islands.same(a, b)) {
-    if (bodies_.moving.any())
+    if (bodies_.contact_work.any())
       for (const Entity i : {a, b}) bodies_.contact_work.end_paths(islands.of(i).members, bodies_.now);
 
     const Mode united = max(bodies_.mode(a), bodies_.mode(b));
@@ -334,8 +334,10 @@ double ExactGroup::power(Entity i) const {
   return power;
 }
 
-void ExactGroup::note_power(Entity i) {
-  bodies_.contact_work.change(i, bodies_.now, power(i));
+void ExactGroup::note_forces(Entity i) {
+  vector<ContactForce> forces;
+  for (const PressingContact& p : pressing[i]) forces.push_back({i, p.partner, p.force});
+  bodies_.contact_work.change(i, bodies_.now, power(i), forces);
 }
 
 void ExactGroup::report(Entity i, vector<ContactForce>& forces) const {

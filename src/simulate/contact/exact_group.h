@@ -94,8 +94,8 @@ class ExactGroup {
 
   /// Whether something that presses on body i changes its velocity at the present instant.
   bool switches(Entity i) const;
-  /// Stores the power of the moving things that press on member i from this instant on.
-  void note_power(Entity i);
+  /// Stores the forces that press on body i from this instant on, and the power of the moving things among these.
+  void note_forces(Entity i);
   /// Appends the forces of sleeping bodies.
   void report(Entity i, vector<ContactForce>& forces) const;
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr size_t most_flat = 32;
 
-FlatSolution solve_one_body(const Vec3& u, span<const FlatSurface> surfaces, bool bilateral) {
+FlatSolution solve_one_body(const Vec3& u, span<const FlatSurface> surfaces, bool bilateral, span<double> pushes) {
   array<ContactConstraint, most_flat> contacts;
   for (size_t k = 0; k < surfaces.size(); ++k) {
     contacts[k] = {0, ContactConstraint::fixed, -surfaces[k].normal};
@@ -26,18 +26,19 @@ FlatSolution solve_one_body(const Vec3& u, span<const FlatSurface> surfaces, boo
   for (size_t k = 0; k < surfaces.size(); ++k) {
     if (contacts[k].force > 0) solution.active |= 1u << k;
     solution.work += contacts[k].work();
+    if (!pushes.empty()) pushes[k] = contacts[k].force;
   }
   return solution;
 }
 
 }  // namespace
 
-FlatSolution solve_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces) {
-  return solve_one_body(u, surfaces, false);
+FlatSolution solve_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces, span<double> pushes) {
+  return solve_one_body(u, surfaces, false, pushes);
 }
 
-FlatSolution keep_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces) {
-  return solve_one_body(u, surfaces, true);
+FlatSolution keep_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces, span<double> pushes) {
+  return solve_one_body(u, surfaces, true, pushes);
 }
 
 }  // namespace carom

@@ -20,10 +20,11 @@ struct FlatSurface {
   double u = 0;
 };
 
-/// The allowed motion for one body and flat surfaces. At most 32 of them.
-FlatSolution solve_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces);
+/// The allowed motion for one body and flat surfaces. At most 32 of them. `pushes`: by surface, what it adds along its
+/// normal, unless that is empty.
+FlatSolution solve_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces, span<double> pushes = {});
 
 /// u with the surfaces' components along their normals: motion that keeps all contacts.
-FlatSolution keep_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces);
+FlatSolution keep_flat_contacts(const Vec3& u, span<const FlatSurface> surfaces, span<double> pushes = {});
 
 }  // namespace carom

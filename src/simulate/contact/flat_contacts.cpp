@@ -212,7 +212,7 @@ void FlatContacts::find_initial(Entity i) {
 
   f.a = keep_pressing(i) - f.fade * f.v;
   bodies_.flights.set(i, f);
-  if (bodies_.moving.any()) bodies_.contact_work.change(i, bodies_.now, power(i));
+  if (bodies_.contact_work.any()) note_forces(i);
 }
 
 /// The point at which body i touches the surface of a contact (m).
@@ -251,6 +251,12 @@ void FlatContacts::retain(FlatContactList& contacts, const array<bool, most>& wh
   for (size_t k = 0; k < contacts.count; ++k)
     if (which[k]) contacts.at[kept++] = contacts.at[k];
   contacts.count = kept;
+}
+
+/// Adds the impulses by which these surfaces have changed body i's velocity, by their shares of it (m/s).
+void FlatContacts::note_pushes(Entity i, const FlatContactList& contacts, span<const double> pushes) {
+  for (size_t k = 0; k < pushes.size(); ++k)
+    bodies_.contact_work.impulses.strike(bodies_.now, i, contacts.at[k].surface, bodies_.world.mass[i] * pushes[k]);
 }
 
 Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
@@ -298,8 +304,11 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
 
   Surfaces surfaces;
   n = surfaces_of(contacts, no_entity, 1, surfaces);
-  double lost = 0;  // J
-  FlatSolution solution = note_solution(i, solve_flat_contacts(v, {surfaces.data(), n}), lost);
+  double lost = 0;             // J
+  array<double, most> pushes;  // m/s, by surface
+  const span<double> wanted(pushes.data(), bodies_.contact_work.impulses.any() ? n : 0);
+  FlatSolution solution = note_solution(i, solve_flat_contacts(v, {surfaces.data(), n}, wanted), lost);
+  note_pushes(i, contacts, wanted);
 
   // A push into one surface may lift the body off another.
   for (size_t k = 0; k < contacts.count; ++k) {
@@ -308,7 +317,9 @@ Vec3 FlatContacts::keep_at_surfaces(Entity i, const Vec3& v) {
   }
   retain(contacts, kept);
   n = surfaces_of(contacts, no_entity, 1, surfaces);
-  solution = note_solution(i, keep_flat_contacts(solution.u, {surfaces.data(), n}), lost);
+  const span<double> wanted_by_kept = wanted.first(min(n, wanted.size()));
+  solution = note_solution(i, keep_flat_contacts(solution.u, {surfaces.data(), n}, wanted_by_kept), lost);
+  note_pushes(i, contacts, wanted_by_kept);
   const Vec3& allowed = solution.u;
   note_mode(i);
 
@@ -391,14 +402,20 @@ vector<FlatContacts::SurfaceForce> FlatContacts::forces_on(Entity i) const {
   return forces;
 }
 
-double FlatContacts::power(Entity i) const {
+void FlatContacts::note_forces(Entity i) {
   const FlatContactList& contacts = contacts_[i];
   const bool moving = std::any_of(contacts.at.begin(), contacts.at.begin() + contacts.count,
                                   [&](const FlatContact& c) { return bodies_.moving.moves(c.surface, bodies_.now); });
-  if (!moving) return 0;
-  double power = 0;
-  for (const SurfaceForce& of : forces_on(i)) power -= of.force * of.along;
-  return power;
+  const bool summed = bodies_.contact_work.impulses.any() && contacts.count > 0;
+  if (!moving && !summed) return bodies_.contact_work.change(i, bodies_.now, 0);
+
+  double power = 0;  // W
+  vector<ContactForce> forces;
+  for (const SurfaceForce& of : forces_on(i)) {
+    if (moving) power -= of.force * of.along;
+    if (summed) forces.push_back({i, of.surface, of.force});
+  }
+  bodies_.contact_work.change(i, bodies_.now, power, forces);
 }
 
 void FlatContacts::report(Entity i, vector<ContactForce>& forces) const {

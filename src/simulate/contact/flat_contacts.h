@@ -53,8 +53,8 @@ class FlatContacts {
   bool switches(Entity i) const;
   /// The path of a fixed thing from `start` (s) on, as long as its present velocity lasts.
   FadingPath path_of(Entity surface, const Instant& start) const;
-  /// The power of moving surfaces that carry body i (W).
-  double power(Entity i) const;
+  /// Stores the forces of the surfaces that carry body i from this instant on, and the power of those that move.
+  void note_forces(Entity i);
   /// Whether body i cannot strike this fixed thing, because it lies behind a surface that carries the body.
   bool hides(Entity i, Entity fixed) const;
 
@@ -112,6 +112,7 @@ class FlatContacts {
   };
   vector<SurfaceForce> surfaces_below(Entity i) const;
   vector<SurfaceForce> forces_on(Entity i) const;
+  void note_pushes(Entity i, const FlatContactList& contacts, span<const double> pushes);
   Vec3 keep_at_surfaces(Entity i, const Vec3& v);
   Vec3 keep_pressing_surfaces(Entity i);
   Vec3 place_of(Entity i, const FlatContact& contact) const;

@@ -73,18 +73,19 @@ void FlightChanges::go_on(Entity i, const Vec3& x, const Vec3& v, const FlightOr
 }
 
 inline void FlightChanges::end_change(Entity i, const FlightOrigin& origin) {
-  if (bodies_.moving.any()) [[unlikely]]
-    note_power(i);
+  if (bodies_.contact_work.any()) [[unlikely]]
+    note_forces(i);
   bodies_.body[i].set_origin(origin);
   bodies_.neighbours.turned(i);
   count(i);
   note_changed(i);
 }
 
-/// Stores the power of moving surfaces that carry body i by itself. That of islands is stored with their steps.
-void FlightChanges::note_power(Entity i) {
-  if (!is_member(bodies_.mode(i)))
-    bodies_.contact_work.change(i, bodies_.now, in_lasting_contact(bodies_.mode(i)) ? 0 : flat_.power(i));
+/// Stores the forces of surfaces that carry body i by itself, and the power of those that move. Those of islands are
+/// stored with their steps, and those of a sleeper where it falls asleep.
+void FlightChanges::note_forces(Entity i) {
+  if (is_member(bodies_.mode(i))) return;
+  in_lasting_contact(bodies_.mode(i)) ? bodies_.contact_work.change(i, bodies_.now, 0) : flat_.note_forces(i);
 }
 
 /// Starts a step of body i's flight: by the scene's method if it is free, otherwise by that of contact.

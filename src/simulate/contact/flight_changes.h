@@ -81,7 +81,7 @@ class FlightChanges {
   void end_by_method(Entity i);
   void curve(Entity i, Flight from, bool free);
   [[gnu::always_inline]] void end_change(Entity i, const FlightOrigin& origin);
-  [[gnu::noinline]] void note_power(Entity i);
+  [[gnu::noinline]] void note_forces(Entity i);
 
   void book_contact(Entity i, const Vec3& x, const Instant& end);
   void book_followed(Entity i, const Vec3& x, const Instant& end);

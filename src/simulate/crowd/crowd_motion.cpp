@@ -114,15 +114,17 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
   bodies_.log.add_stepped_contact(since * double(pressed));
 
   // Things that move push a against the normal. Velocities of the step's ends have parts of two steps' forces.
-  if (bodies_.moving.any())
+  if (bodies_.contact_work.any())
     crowd.rows.for_each([&](size_t g, size_t lane) {
       const RowGroup& row = crowd.rows.hot[g];
-      if (row.b[lane] < crowd.movable()) return;
       const RowState& state = crowd.rows.state[g];
-      const Vec3 normal = crowd.rows.normal(g, lane);
       const double impulse =
           state.force[lane] * (0.5 * crowd.step.length + crowd.lag[row.a[lane]] + age) - state.carried[lane];
+      const auto& [i, e] = crowd.rows.names[g][lane];
+      bodies_.contact_work.impulses.spread(crowd.step.start, crowd.step.start + since, i, e, impulse);
+      if (row.b[lane] < crowd.movable() || !bodies_.moving.any()) return;
 
+      const Vec3 normal = crowd.rows.normal(g, lane);
       const double work = -impulse * normal.dot(crowd.drift(row.b[lane]));
       if (work == 0) return;
       bodies_.log.add_work(work);

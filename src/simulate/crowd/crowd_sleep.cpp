@@ -195,6 +195,7 @@ void CrowdSleep::put_to_rest(Crowd& crowd, const Holding& holding) {
     modes_.fall_asleep(i);
     flights_.begin(i, crowd.position(k), Vec3::Zero(), {});
     group_.member.write(i).gap = 2 * crowd.step.shell;
+    if (bodies_.contact_work.any()) group_.note_forces(i);
   }
   bodies_.log.absorb(kinetic);
 

@@ -158,6 +158,7 @@ void CrowdSteps::book(const Strikes& strikes) const {
   for (const Collision& met : strikes.met) {
     bodies_.log.record(met);
     bodies_.log.lose(met.energy_lost);
+    bodies_.contact_work.impulses.strike(bodies_.now, met.a, met.b, met.impulse);
   }
   if (strikes.work != 0) bodies_.log.add_work(strikes.work);
 }
@@ -442,6 +443,8 @@ void CrowdSteps::absorb_approaches(Crowd& crowd) {
       const double impulse = min(row.impulse[lane], speed * row.share[lane]);
       if (!(speed > rounding && impulse > 0)) continue;
       work += push(crowd, g, lane, impulse, before_);
+      const auto& [a, e] = crowd.rows.names[g][lane];
+      bodies_.contact_work.impulses.strike(bodies_.now, a, e, impulse);
       row.impulse[lane] -= impulse;
       if (sweep == 0) bodies_.log.take_up(speed, 0);
       any = true;

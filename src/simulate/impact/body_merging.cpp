@@ -27,6 +27,7 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   met.energy_lost += join(whole, part);
   bodies_.log.lose(met.energy_lost);
   bodies_.log.record(met);
+  bodies_.contact_work.impulses.strike(bodies_.now, a, b, met.impulse);
 
   // The larger volume has a new region, and is moved out of fixed things that it overlaps.
   renew_region(bodies_, whole, bodies_.body[whole].event.time.hi);

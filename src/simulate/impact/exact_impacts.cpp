@@ -23,6 +23,7 @@ void ExactImpacts::bounce_off(const PairImpact& impact, Entity striker, Entity s
   const double separation = impact.e * approach;
   const double impulse = impact_impulse(mass, ExactBodies::immovable, approach, separation);
   const double lost = impact_loss(mass, ExactBodies::immovable, approach, separation);
+  bodies_.contact_work.impulses.strike(bodies_.now, impact.a, impact.b, impulse);
   rules_.book({bodies_.now.hi, CollisionKind::body_body, impact.a, impact.b, there.point, there.normal, approach,
                separation, impact.e, impulse, lost},
               false, impact.press, impact.length);
@@ -39,8 +40,16 @@ void ExactImpacts::collide_pair(Entity a, Entity b, uint8_t feature) {
   bodies_.log.note_overlap(-impact.there.gap);
   bodies_.note_speed(a, impact.va);
   bodies_.note_speed(b, impact.vb);
-  if (bodies_.options.merge) return parts_.merging.merge(a, b, impact.there);
+  if (otherwise_) [[unlikely]]
+    return bodies_.options.merge ? parts_.merging.merge(a, b, impact.there) : resolve<true>(impact);
+  resolve<false>(impact);
+}
 
+/// `summed`: its impulse counts for a sum.
+template <bool summed>
+inline void ExactImpacts::resolve(const PairImpact& impact) {
+  const Entity a = impact.a;
+  const Entity b = impact.b;
   parts_.guard.note_restitution(impact.e);
   if (const Entity struck = rules_.left_asleep(impact); struck != no_entity) [[unlikely]]
     return bounce_off(impact, struck == b ? a : b, struck);
@@ -51,6 +60,7 @@ void ExactImpacts::collide_pair(Entity a, Entity b, uint8_t feature) {
   const Collision met = with_effect(bodies_.world, {bodies_.now.hi, CollisionKind::body_body, a, b, impact.there.point,
                                                     impact.there.normal, impact.approach, separation, impact.e});
   rules_.book(met, ends, impact.press, impact.length);
+  if constexpr (summed) bodies_.contact_work.impulses.strike(bodies_.now, a, b, met.impulse);
   apply_pair(impact, met.impulse, ends);
 }
 
@@ -74,6 +84,14 @@ inline void ExactImpacts::apply_pair(const PairImpact& impact, double impulse, b
   parts_.group.note_parted(a, b, false);
   for (const Entity i : {a, b}) parts_.group.await_step(i);
   parts_.group.unite(a, b);
+}
+
+/// Books the impulse by which a fixed thing changes a body's velocity (m/s) along the normal: the work of one that
+/// moves.
+void ExactImpacts::book_push(const FixedImpact& impact, double change) const {
+  const double impulse = bodies_.world.mass[impact.body] * change;
+  if (bodies_.moving.any()) bodies_.log.add_work(-impulse * impact.there.normal.dot(impact.u));
+  bodies_.contact_work.impulses.strike(bodies_.now, impact.body, impact.surface, impulse);
 }
 
 void ExactImpacts::collide_fixed(Entity i, Entity surface, uint8_t feature) {
@@ -100,8 +118,8 @@ void ExactImpacts::collide_fixed(Entity i, Entity surface, uint8_t feature) {
   parts_.group.note_needed(i);
 
   if (approach > 0 || separation > 0) {
-    const double impulse = world.mass[i] * (rests ? approach : approach + separation);
-    if (bodies_.moving.any()) bodies_.log.add_work(-impulse * n.dot(impact.u));
+    if (bodies_.contact_work.any()) [[unlikely]]
+      book_push(impact, rests ? approach : approach + separation);
     const Collision met = with_effect(world, {bodies_.now.hi, CollisionKind::body_fixed, i, surface, impact.there.point,
                                               n, approach, separation, impact.e});
     // What a level surface takes over is not plastic.

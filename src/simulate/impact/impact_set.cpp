@@ -406,7 +406,7 @@ void ImpactSet::strike_inelastic(const Together& set) {
     RowState& r = rows_[all[k]];
     const double more = p.impulse[k] - r.open;
     r.open = p.impulse[k];
-    if (!r.holds) note(all[k], more, approach(all[k]), separation(all[k]));
+    r.holds ? void(r.pull += more) : note(all[k], more, approach(all[k]), separation(all[k]));
   }
   if (!set.links.empty()) share_losses(p.bodies, first);
 }
@@ -472,6 +472,7 @@ vector<Vec3> ImpactSet::expand_alike(const Projection& compressed, double e) con
 vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compressed, double& share) {
   const vector<Sum3> gained = expansion(set.rows, compressed);
   vector<Vec3> dv;
+  vector<pair<uint32_t, double>> answers;  // N s, of links
   for (const Sum3& of : gained) dv.emplace_back(of[0].value(), of[1].value(), of[2].value());
 
   // Links that are still tight answer to it.
@@ -484,11 +485,13 @@ vector<Vec3> ImpactSet::expand_each(const Together& set, const Projection& compr
     const Projection answer = project({}, tight, all, true);
     certificate_.merge(answer.certificate);
     for (size_t k = 0; k < answer.bodies.size(); ++k) dv[compressed.place_of(answer.bodies[k])] = answer.v[k];
+    for (size_t k = 0; k < tight.size(); ++k) answers.emplace_back(tight[k], answer.impulse[k]);
   }
 
   // With e above 1 energy may be made.
   const bool limited = all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution <= 1; });
   share = limited ? allowed_share(compressed, dv) : 1;
+  for (const auto& [link, impulse] : answers) rows_[link].pull += share * impulse;
 
   // The velocities are rounded once where links and limits have not changed the sums.
   vector<Vec3> after = compressed.v;
@@ -511,6 +514,8 @@ void ImpactSet::strike_elastic(const Together& set) {
   const double first_e = rows_[set.rows.front()].restitution;
   const bool one = all_of(set.rows, [&](uint32_t c) { return rows_[c].restitution == first_e; });
   double share = 1;
+  for (size_t k = 0; k < set.links.size(); ++k)
+    rows_[set.links[k]].pull += (one ? 1 + first_e : 1) * compressed.impulse[set.rows.size() + k];
   const vector<Vec3> after = one ? expand_alike(compressed, first_e) : expand_each(set, compressed, share);
   for (size_t k = 0; k < after.size(); ++k) change(compressed.bodies[k], after[k]);
 
@@ -673,6 +678,7 @@ void ImpactSet::end_by(const Limit& limit) {
     const uint32_t c = limit.touching[k];
     note(c, p.impulse[k], approach(c), separation(c));
   }
+  for (size_t k = 0; k < limit.links.size(); ++k) rows_[limit.links[k]].pull += p.impulse[limit.touching.size() + k];
   share_losses(p.bodies, 0);
   for (const uint32_t body : changed_) set_velocity(body, next_[body]);
 }

@@ -67,6 +67,9 @@ class ImpactSet {
   span<const uint32_t> rows_of(uint32_t body) const { return bodies_[body].rows; }
   void set_restitution(uint32_t c, double e) { rows_[c].restitution = e; }
 
+  /// The impulse (N s) that a link has passed on so far; of a rod that was pushed, below 0.
+  double pull(uint32_t c) const { return rows_[c].pull; }
+
   /// m/s.
   const Vec3& velocity(uint32_t body) const { return bodies_[body].v; }
   void set_velocity(uint32_t body, const Vec3& v);
@@ -123,6 +126,7 @@ class ImpactSet {
     bool holds = false;   // a link that does
     bool struck = false;  // since the last look for the end of endless rounds
     double open = 0;      // N s, the impulse of a row with e = 0 that stays closed
+    double pull = 0;      // N s, what it has passed on as a link
   };
   /// Rows that act together, and the open rows and links connected with them.
   struct Together {

@@ -497,6 +497,7 @@ void InstantImpacts::book(Moment& now) {
     if (in_lasting_contact(bodies_.mode(row.a)))
       parts_.group.note_parted(row.a, row.thing, of.separation > 0 && !row.pressed);
     const CollisionKind kind = impact_kind(world, row.thing);
+    bodies_.contact_work.impulses.strike(bodies_.now, row.a, row.thing, of.impulse);
     if (kind == CollisionKind::body_fixed && bodies_.moving.any())
       bodies_.log.add_work(-of.impulse * row.there.normal.dot(bodies_.fixed_velocity(row.thing)));
 
@@ -504,6 +505,11 @@ void InstantImpacts::book(Moment& now) {
                  of.e, of.impulse, of.lost},
                 of.ends, row.press, row.length);
   }
+
+  // What strings and rods have passed on.
+  for (uint32_t c = 0; c < now.set.rows(); ++c)
+    if (const double pull = now.set.pull(c); pull != 0)
+      bodies_.contact_work.impulses.strike(bodies_.now, now.touching[c].a, now.touching[c].thing, std::abs(pull));
 }
 
 }  // namespace carom

@@ -151,6 +151,12 @@ void ConstrainedMotion::book(const IslandStep& step) {
   const AbsorbedApproaches& absorbed = all.absorbed;
   bodies_.log.take_up(step.inverse_mass, absorbed.before, absorbed.after, absorbed.pairs, absorbed.impacts);
 
+  for (size_t c = 0; c < absorbed.names.size(); ++c)
+    bodies_.contact_work.impulses.strike(step.at, absorbed.names[c].i, absorbed.names[c].e,
+                                         std::abs(absorbed.pairs[c].force));
+  for (const ContactForce& impulse : all.stopped)
+    bodies_.contact_work.impulses.strike(step.at, impulse.a, impulse.b, impulse.force);
+
   for (const Entity i : all.struck) collapses_.count_in_turn(i, 1);
   if (all.work != 0) bodies_.log.add_carried_work(all.work);
   for (const Unbalanced& body : all.unbalanced) bodies_.log.note_unbalanced(body);
@@ -175,9 +181,10 @@ void ConstrainedMotion::note_contacts(const IslandStep& step) {
       group_.member.write(i).floors.push_back({-p.normal, bodies_.fixed_velocity(e)});
   }
 
-  // The work along a path is integrated at its end.
-  if (!bodies_.moving.any()) return;
-  for (const Entity i : step.members) step.path ? bodies_.contact_work.change(i, bodies_.now, 0) : group_.note_power(i);
+  // What accrues along a path is integrated at its end.
+  if (!bodies_.contact_work.any()) return;
+  for (const Entity i : step.members)
+    step.path ? bodies_.contact_work.change(i, bodies_.now, 0) : group_.note_forces(i);
 }
 
 /// Starts the members' flights until the step's end.
@@ -222,6 +229,7 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, uint32_t k) {
   if (fate.rests) {
     modes_.fall_asleep(i);
     flights_.begin(i, x, Vec3::Zero(), {});
+    if (bodies_.contact_work.any()) group_.note_forces(i);
     return false;
   }
 

@@ -84,7 +84,8 @@ void ConstrainedSteps::take_approaches(IslandStep& step) const {
   // What that absorbs is booked with the step.
   vector<AbsorbedImpact> impacts = absorbed_impacts(step, met);
   record_fast(step, impacts);
-  step.bookings.absorbed = {met, step.v, step.contacts.pairs, std::move(impacts)};
+  step.bookings.absorbed = {met, step.v, step.contacts.pairs, std::move(impacts), {}};
+  if (bodies_.contact_work.impulses.any()) step.bookings.absorbed.names = step.contacts.names;
 
   for (size_t k = 0; k < step.v.size(); ++k) {
     const Entity i = step.members[k];
@@ -260,6 +261,9 @@ bool ConstrainedSteps::stop_parting(IslandStep& step) const {
   step.v = std::move(stopped);
   step.bookings.solutions.push_back(certificate);
   for (const ContactConstraint& p : kept) step.bookings.work += p.work();
+  for (size_t c = 0; bodies_.contact_work.impulses.any() && c < kept.size(); ++c)
+    if (const Contact& name = step.contacts.names[c]; !step.contacts.pairs[c].bilateral)
+      step.bookings.stopped.push_back({name.i, name.e, kept[c].force});
   return true;
 }
 
@@ -466,7 +470,8 @@ void ConstrainedSteps::follow(IslandStep& step, ConstrainedSystem& system, doubl
   step.motion.next_length = followed.next;
   step.motion.changes = followed.changes;
   step.path = make_shared<IslandPath>(IslandPath{bodies_.now, std::move(followed.motion)});
-  if (system.works()) step.motion.forces = make_shared<ConstrainedSystem>(std::move(system));
+  if (system.works() || bodies_.contact_work.impulses.any())
+    step.motion.forces = make_shared<ConstrainedSystem>(std::move(system));
 }
 
 /// The time (s) at which the pair crosses its feature's rim, on parabolas. Motion along a rim, up to rounding, does not

@@ -522,6 +522,52 @@ double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
   return work;
 }
 
+/// Adds the integrals of forces between two times (s), by closed contact, by Gauss's rule. False, and nothing is added:
+/// the force of a rod changes its sign between the rule's points.
+bool ConstrainedSystem::add_integrals(const DenseMotion& motion, double from, double to, vector<double>& sums) const {
+  vector<ContactConstraint> rows = held_;
+  vector<double> found(rows.size(), 0);  // N s
+  vector<double> magnitude(rows.size(), 0);
+  vector<Vec3> x;
+  vector<Vec3> v;
+  for (const GaussPoint& point : gauss_6) {
+    motion.at(from + point.at * (to - from), x, v);
+    Certificate certificate;
+    solve_rows(x, v, rows, certificate);
+
+    for (size_t c = 0; c < rows.size(); ++c) {
+      const bool rod = is_rod(world_, closed_[c].e);
+      found[c] += point.weight * (to - from) * (rod ? rows[c].force : max(rows[c].force, 0.0));
+      magnitude[c] += point.weight * (to - from) * std::abs(rows[c].force);
+    }
+  }
+
+  for (size_t c = 0; c < rows.size(); ++c)
+    if (is_rod(world_, closed_[c].e) && std::abs(found[c]) != magnitude[c]) return false;
+  for (size_t c = 0; c < rows.size(); ++c) sums[c] += std::abs(found[c]);
+  return true;
+}
+
+void ConstrainedSystem::add_impulses(const DenseMotion& motion, double from, double to,
+                                     const WorkingPath::Take& take) const {
+  // Where the sign of a rod's force changes, halves of the time follow. What such a change is in at last is too short
+  // to matter.
+  vector<double> sums(closed_.size(), 0);  // N s
+  const double shortest = 0x1p-26 * motion.length();
+  vector<pair<double, double>> todo{{from, to}};
+  while (!todo.empty()) {
+    const auto [begin, end] = todo.back();
+    todo.pop_back();
+    if (add_integrals(motion, begin, end, sums) || end - begin < shortest) continue;
+    const double middle = 0.5 * (begin + end);
+    todo.emplace_back(middle, end);
+    todo.emplace_back(begin, middle);
+  }
+
+  for (size_t c = 0; c < closed_.size(); ++c)
+    if (!left_[held_[c].a]) take({closed_[c].i, closed_[c].e, sums[c]});
+}
+
 double ConstrainedSystem::greatest_fade() const {
   double fade = 0;
   for (const Applied& of : applied_) fade = max(fade, of.fade);

@@ -9,6 +9,7 @@
 
 #include "geometry/touch.h"
 #include "numerics/dense_motion.h"
+#include "simulate/contact/contact_impulses.h"
 #include "simulate/contact/contact_list.h"
 #include "solver/contact_problem.h"
 #include "std.h"
@@ -30,7 +31,7 @@ class ConstrainedSystem {
   ConstrainedSystem(const World& world, double time, vector<Entity> members, vector<Applied> applied,
                     double step_error);
 
-  /// To be restored: then it has what work() needs.
+  /// To be restored: then it has what work() and add_impulses() need.
   explicit ConstrainedSystem(const World& world) : ConstrainedSystem(world, 0, {}, {}, 0) {}
 
   /// Adds a contact between two members, or of a member and a fixed thing, with its normal. A bilateral one never
@@ -46,6 +47,9 @@ class ConstrainedSystem {
   void leave_out(size_t k) { left_[k] = 1; }
   /// Their work (J) in the first `length` (s) of a motion that was followed. Forces change as they did then.
   double work(const DenseMotion& motion, double length) const;
+  /// Calls take(impulse) for each contact of members that are not left out, with its impulse between two times (s) of
+  /// such a motion. Of a rod it is that of the force's magnitude.
+  void add_impulses(const DenseMotion& motion, double from, double to, const WorkingPath::Take& take) const;
   /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
   void open_contacts(const vector<uint8_t>& which);
 
@@ -121,6 +125,7 @@ class ConstrainedSystem {
   double within_reach(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
   vector<Vec3> forces_at(const vector<Vec3>& x, const vector<Vec3>& v) const;
   bool any_bent() const;
+  bool add_integrals(const DenseMotion& motion, double from, double to, vector<double>& sums) const;
   Vec3 place_of(const vector<Vec3>& x, uint32_t b, Entity e) const;
   Followed follow_smooth(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a, double h);
   Followed follow_stiff(const vector<Vec3>& x, const vector<Vec3>& v, double h);

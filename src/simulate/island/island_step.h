@@ -35,7 +35,7 @@ struct IslandPath {
   }
 };
 
-/// The work of moving things along such a path.
+/// The work of moving things and the impulses of contacts along such a path.
 class IslandWork final : public WorkingPath {
  public:
   IslandWork() = default;  // to be restored
@@ -43,7 +43,11 @@ class IslandWork final : public WorkingPath {
       : path_(std::move(path)), forces_(std::move(forces)) {}
 
   double work(double seconds) const override {
-    return forces_->work(*path_->motion, min(seconds, path_->motion->length()));
+    return forces_->works() ? forces_->work(*path_->motion, min(seconds, path_->motion->length())) : 0;
+  }
+  void impulses(double from, double to, const Take& take) const override {
+    const double length = path_->motion->length();
+    if (from < length) forces_->add_impulses(*path_->motion, from, min(to, length), take);
   }
 
   void keep(auto& archive) { archive(path_, forces_); }
@@ -71,6 +75,7 @@ struct AbsorbedApproaches {
   vector<Vec3> after;               // m/s
   vector<ContactConstraint> pairs;  // with the impulses (N s)
   vector<AbsorbedImpact> impacts;   // by pair
+  vector<Contact> names;            // of the pairs, where their impulses are summed
 };
 
 struct IslandStep {
@@ -99,7 +104,7 @@ struct IslandStep {
 
   /// What is known besides when the motion has been chosen.
   struct Motion {
-    // Of the path, where things that move take part: to integrate their work. none: they do not.
+    // Of the path, where things that move take part, or impulses are summed: to integrate these. none: they do not.
     shared_ptr<ConstrainedSystem> forces;
     double next_length = 0;  // s, a good length for the next step
     bool inexact = false;    // the paths have an error beyond rounding
@@ -113,6 +118,8 @@ struct IslandStep {
     vector<Collision> collisions;
     vector<Entity> struck;  // bodies with an impact in turn with a strike
     double work = 0;        // J, of moving things when separations end
+    // The impulses that end separations, where impulses are summed: N s in place of N, below 0 where they pull.
+    vector<ContactForce> stopped;
     vector<Unbalanced> unbalanced;
   } bookings;
 

@@ -176,7 +176,8 @@ void ExactSimulator::advance_to(double time) {
 
   // At the run's end, the last flights and the work along paths are booked.
   if (time_ < bodies_.options.duration) return;
-  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time_, 0}); });
+  const double end = is_over() ? tally().end->time : time_;
+  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {end, 0}); });
   book_last(time_);
 }
 
@@ -497,7 +498,8 @@ template <typename Archive>
 void ExactSimulator::keep(Archive& archive) {
   const World& world = bodies_.world;
   const ExactOptions& options = bodies_.options;
-  archive.same(world.body_count(), world.entity_count(), world.forces.size(), options.watch.size());
+  archive.same(world.body_count(), world.entity_count(), world.forces.size(), options.watch.size(),
+               options.impulses.size());
   archive.same(options.duration, options.merge, options.record_collisions, options.record_paths);
 
   archive(bodies_, crossings_, paths_, collapses_, modes_, flat_, group_, flights_, queue_, predictor_);

@@ -35,6 +35,9 @@ class ExactSimulator final : public Simulator {
   vector<Extremes> extremes() const override {
     return paths_.extremes().up_to(tally().end ? min(time_, tally().end->time) : time_);
   }
+  vector<double> impulses() const override {
+    return bodies_.contact_work.impulses_up_to(tally().end ? min(time_, tally().end->time) : time_);
+  }
   Effort effort() const override;
   span<const ContactForce> contacts() override;
   string save() override;

@@ -8,6 +8,7 @@
 #include "simulate/path/path_extremes.h"
 
 #include "numerics/bernstein.h"
+#include "numerics/gauss.h"
 #include "physics/world.h"
 #include "std.h"
 
@@ -89,6 +90,93 @@ void turns_of(const Part& part, Quantity quantity, double from, double to, const
   }
 }
 
+/// The value at s = 1 of the integral of a polynomial from s = 0 on.
+double integral_of(const Coefficients& of) {
+  double sum = 0;
+  for (size_t k = of.size(); k-- > 0;) sum += of[k] / double(k + 1);
+  return sum;
+}
+
+/// The integral of a speed over s from `from` to `to`, by bisection until halves add nothing. It is smooth between its
+/// turns, and sharp at one where it almost vanishes. `scale`: m/s, what counts as rounding follows from it.
+///
+/// The rule's order is 20: where a speed is smooth, halves are a million times as exact as their difference shows.
+double integral_of_speed(const array<Coefficients, 3>& v, double from, double to, double scale, int depth) {
+  constexpr double close = 0x1p-44;
+  const auto rule = [&](double a, double b) {
+    double sum = 0;
+    for (const GaussPoint& point : gauss_10) {
+      const double s = a + point.at * (b - a);
+
+      double squared = 0;  // m^2/s^2
+      for (const Coefficients& of : v) {
+        double speed = 0;
+        for (size_t k = of.size(); k-- > 0;) speed = speed * s + of[k];
+        squared += speed * speed;
+      }
+      sum += point.weight * sqrt(squared);
+    }
+    return (b - a) * sum;
+  };
+
+  const double middle = 0.5 * (from + to);
+  const double halves = rule(from, middle) + rule(middle, to);
+  if (depth == 0 || std::abs(halves - rule(from, to)) <= close * scale * (to - from)) return halves;
+  return integral_of_speed(v, from, middle, scale, depth - 1) + integral_of_speed(v, middle, to, scale, depth - 1);
+}
+
+/// The same for a whole piece, between its turns.
+double integral_of_speed(const array<Coefficients, 3>& v) {
+  constexpr int most_bisections = 48;
+  double scale = 0;
+  for (const Coefficients& of : v)
+    for (const double coefficient : of) scale = max(scale, std::abs(coefficient));
+
+  double sum = 0, from = 0;
+  vector<double> turns = roots_in_unit(turning(Quantity::speed, v));
+  turns.push_back(1);
+  for (const double to : turns) {
+    sum += integral_of_speed(v, from, to, scale, most_bisections);
+    from = to;
+  }
+  return sum;
+}
+
+/// The mean of a velocity, a speed or an energy over a piece of a flight, with its velocities as polynomials.
+double mean_of(const array<Coefficients, 3>& v, Quantity quantity, double mass) {
+  if (quantity <= Quantity::vz) return integral_of(v[size_t(quantity) - size_t(Quantity::vx)]);
+  if (quantity == Quantity::speed) return integral_of_speed(v);
+  Coefficients squared;
+  for (const Coefficients& of : v) add_product(of, of, squared);
+  return 0.5 * mass * integral_of(squared);
+}
+
+/// The mean of a coordinate over `length` (s) of a flight from t on, less the one at t (m).
+double mean_way(const Flight& flight, int axis, double t, double length) {
+  const PolynomialPath::Terms terms = flight.displacement_from(t, length);
+  double sum = 0;
+  for (size_t k = terms.size(); k-- > 0;) sum += terms[k][axis] / double(k + 2);
+  return sum;
+}
+
+/// The integral of a quantity over the time from `from` to `to` (s) of a flight.
+double integral_of(const Part& part, Quantity quantity, double mass, double from, double to) {
+  Sum sum;
+  for (double t = from; t < to;) {
+    const double length = min(to - t, part.flight.span_of_fade(t));
+    if (!(t + length > t)) break;
+
+    if (is_place(quantity)) {
+      sum.add(length * part.flight.position(t)[int(quantity)]);
+      sum.add(length * mean_way(part.flight, int(quantity), t, length));
+    } else {
+      sum.add(length * mean_of(part.velocities(t, length), quantity, mass));
+    }
+    t += length;
+  }
+  return sum.value();
+}
+
 /// The rate of change of the quantity, or for energies one of the same sign.
 double slope_of(Quantity quantity, const PathPoint& p) {
   const int axis = int(quantity);
@@ -110,8 +198,11 @@ vector<Extremes> PathExtremes::up_to(double time) const {
   vector<Extremes> found = found_;
   for (Entity i = 0; i < seen_.size(); ++i) {
     const Seen seen = take(i, {time, 0}, found);
-    for (size_t k = 0; k < found.size() && seen.any; ++k)
-      if (bodies_.options.watch[k].has(i)) offer(k, i, seen.end, seen.until.hi, seen, found[k]);
+    for (size_t k = 0; k < found.size() && seen.any; ++k) {
+      const WatchedQuantity& watched = bodies_.options.watch[k];
+      if (watched.has(i) && !watched.mean && watched.window.has(seen.until.hi))
+        offer(k, i, seen.end, seen.until.hi, seen, found[k]);
+    }
   }
   return found;
 }
@@ -172,20 +263,35 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Ext
     const WatchedQuantity& watched = bodies_.options.watch[k];
     if (!watched.has(i)) continue;
     const Quantity quantity = watched.quantity;
-    const double here = quantity_of(quantity, start.x, start.v, mass);
+
+    // The part of the flight that is in the window. Of an instant between two flights each has its own side.
+    const Instant first = max(since, Instant{watched.window.from, 0}),
+                  last = min(until, Instant{watched.window.until, 0});
+    if (last < first || (last == first && since < until)) continue;
+    const double enters = first - f.start, leaves = last - f.start;
+    if (watched.mean) {
+      found[k].integral.add(integral_of(part, quantity, mass, enters, leaves));
+      found[k].seconds.add(last - first);
+      continue;
+    }
+    if (since < first) offer(k, i, part.point(enters), first.hi, seen, found[k]);
+    if (last < until) offer(k, i, part.point(leaves), last.hi, seen, found[k]);
 
     // Whether the flight continues the one before.
+    const double here = quantity_of(quantity, start.x, start.v, mass);
     const double rises = slope_of(quantity, start);
-    const double rose = before.any ? slope_of(quantity, before.end) : 0;
+    const bool known = before.any && watched.window.has(before.until.hi);
+    const double rose = known ? slope_of(quantity, before.end) : 0;
     const bool goes_on = ((rises > 0 && rose > 0) || (rises < 0 && rose < 0)) &&
                          std::abs(here - quantity_of(quantity, before.end.x, before.end.v, mass)) <=
                              rounding_of(quantity, start, mass, seen);
     if (!goes_on) {
-      if (before.any) offer(k, i, before.end, before.until.hi, before, found[k]);
-      offer(k, i, start, since.hi, seen, found[k]);
+      if (known) offer(k, i, before.end, before.until.hi, before, found[k]);
+      if (!(since < first)) offer(k, i, start, since.hi, seen, found[k]);
     }
 
-    turns_of(part, quantity, from, to, [&](double t) { offer(k, i, part.point(t), (f.start + t).hi, seen, found[k]); });
+    turns_of(part, quantity, enters, leaves,
+             [&](double t) { offer(k, i, part.point(t), (f.start + t).hi, seen, found[k]); });
   }
   return seen;
 }

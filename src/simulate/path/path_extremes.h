@@ -1,6 +1,7 @@
 #pragma once
-// The extremes of quantities along the bodies' paths. They are taken from each flight when it ends: where its
-// polynomial turns, and where the next flight does not continue it. Outputs and samples have no effect on them.
+// The extremes and means of quantities along the bodies' paths. They are taken from each flight when it ends: where its
+// polynomial turns, and where the next flight does not continue it, or as its integral. Outputs and samples have no
+// effect on them.
 
 #include "physics/extremes.h"
 #include "simulate/path/paths.h"
