@@ -1,6 +1,7 @@
 // The scale is constant in time, so that the lengths of a film can be compared. It comes from the scene at time 0.
 #include "overlay/arrows.h"
 
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "scene/color_scale.h"
 #include "std.h"
@@ -14,19 +15,20 @@ constexpr double head_radius = 0.3, head_length = 0.9;  // median radii
 constexpr double least_width = 2;                       // pixels
 constexpr double usual_gravity = 9.80665;               // m/s^2
 
-/// The force (N) of gravity and the scene's forces.
-Vec3 force_on(const Moment& moment, Entity body) {
+/// The force (N) of gravity and the scene's forces. coupled: m/s^2, by body, by forces between bodies.
+Vec3 force_on(const Moment& moment, const vector<Vec3>& coupled, Entity body) {
   const double mass = mass_now(moment.scene.world, moment.state, body);
-  return mass * free_acceleration(moment.scene.world, body, moment.state.time, moment.state.position[body],
-                                  moment.state.velocity[body]);
+  return mass * (coupled[body] + free_acceleration(moment.scene.world, body, moment.state.time,
+                                                   moment.state.position[body], moment.state.velocity[body]));
 }
 
 double greatest_force(const Scene& scene) {
   const World& world = scene.world;
+  const vector<Vec3> coupled = coupled_accelerations(world, scene.initial);
   double greatest = 0, heaviest = 0;
   for (Entity i = 0; i < world.body_count(); ++i) {
     const Vec3 a = free_acceleration(world, i, 0, scene.initial.position[i], scene.initial.velocity[i]);
-    greatest = max(greatest, world.mass[i] * a.norm());
+    greatest = max(greatest, world.mass[i] * (a + coupled[i]).norm());
     heaviest = max(heaviest, world.mass[i]);
   }
   return greatest > 0 ? greatest : heaviest * usual_gravity;
@@ -89,7 +91,8 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
     scales.push_back({ArrowScale::Kind::velocity, rounded_up(greatest), longest * size, size});
   }
   // Without gravity and forces no arrow is ever drawn.
-  if (scene.overlay.force_arrows && !(scene.world.gravity.isZero(0) && scene.world.forces.empty()))
+  if (scene.overlay.force_arrows &&
+      !(scene.world.gravity.isZero(0) && scene.world.forces.empty() && !has_couplings(scene.world)))
     scales.push_back({ArrowScale::Kind::force, rounded_up(greatest_force(scene)), longest * size, size});
   return scales;
 }
@@ -97,6 +100,9 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
 void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<Stroke>& strokes) {
   if (scales.empty()) return;
   const World& world = moment.scene.world;
+  vector<Vec3> coupled;
+  if (any_of(scales, [](const ArrowScale& scale) { return scale.kind == ArrowScale::Kind::force; }))
+    coupled = coupled_accelerations(world, moment.state);
   for (Entity body = 0; body < world.body_count(); ++body) {
     if (moment.is_part(body)) continue;
     const Vec3& x = moment.state.position[body];
@@ -104,7 +110,7 @@ void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<S
     for (const ArrowScale& scale : scales) {
       const bool is_force = scale.kind == ArrowScale::Kind::force;
       const Vec3 arrow =
-          scale.length / scale.typical * (is_force ? force_on(moment, body) : moment.state.velocity[body]);
+          scale.length / scale.typical * (is_force ? force_on(moment, coupled, body) : moment.state.velocity[body]);
       const double length = arrow.norm();
       if (length < 0.25 * moment.pixel_at(x)) continue;
 

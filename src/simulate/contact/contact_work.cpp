@@ -24,7 +24,7 @@ void ContactWork::end_paths(const vector<Entity>& members, const Instant& now) {
   for (const Entity i : members) {
     if (!path_[i]) continue;
     Path& path = *path_[i];
-    if (path.path) log_.add_carried_work(path.path->work(now - path.start));
+    if (path.path) path.path->book(now - path.start, log_);
     path.path = nullptr;
     path_.write(i) = nullptr;
   }

@@ -1,6 +1,6 @@
 #pragma once
 // The work that fixed things which move do on bodies in lasting contact with them: contact force times velocity, booked
-// as it accrues. Nothing is stored where nothing moves.
+// as it accrues. The same for forces between bodies along paths of islands. Nothing is stored where there are neither.
 
 #include "numerics/lazy_array.h"
 #include "physics/entity.h"
@@ -11,12 +11,12 @@ namespace carom {
 
 class EventLog;
 
-/// A path along which things that move do work.
+/// A path along which things that move, or forces between bodies, do work.
 class WorkingPath {
  public:
   virtual ~WorkingPath() = default;
-  /// Their work (J) in the first `seconds`.
-  virtual double work(double seconds) const = 0;
+  /// Books their work in the first `seconds`.
+  virtual void book(double seconds, EventLog& log) const = 0;
 };
 
 class ContactWork {

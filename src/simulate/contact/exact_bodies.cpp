@@ -18,7 +18,8 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       ties(given),
       neighbours(world),
       islands(given.body_count()),
-      contact_work(given.body_count(), log) {}
+      contact_work(given.body_count(), log),
+      touches_nothing(given.body_count()) {}
 
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const Flight p = flights[a];

@@ -28,10 +28,19 @@ struct ExactBodies : BodyPaths {
 
   void keep(auto& archive) {
     BodyPaths::keep(archive);
-    archive(ties, neighbours, islands);
+    archive(ties, neighbours, islands, touches_nothing);
   }
 
   static constexpr double immovable = never;  // kg
+
+  // By body: its island holds it by forces between bodies alone, and nothing touches it.
+  LazyArray<uint8_t> touches_nothing;
+  /// Whether body i is in lasting contact with a thing.
+  bool in_contact(Entity i) const { return in_lasting_contact(mode(i)) && touches_nothing[i] == 0; }
+  /// Whether forces between bodies act on one of these now.
+  bool any_coupled(span<const Entity> those) const {
+    return couplings.any() && any_of(those, [&](Entity i) { return is_coupled(i); });
+  }
 
   /// Throws SimulationError: these things, of which one moves, leave body i no room.
   [[noreturn]] void fail_squeezed(Entity i, vector<Entity> things) const;

@@ -46,6 +46,25 @@ void ExactGroup::enlist(Entity i) {
   islands.create(i, bodies_.now);
 }
 
+vector<Entity> ExactGroup::coupled_with(Entity i) const {
+  vector<Entity> all;
+  if (!bodies_.is_coupled(i)) return all;
+  vector<uint8_t> known(bodies_.body.size(), 0);
+  const auto add = [&](Entity k) {
+    if (exchange(known[k], 1) == 0) all.push_back(k);
+  };
+  add(i);
+  for (size_t k = 0; k < all.size(); ++k) bodies_.couplings.for_each_link(all[k], bodies_.now.hi, add);
+  ranges::sort(all);
+  return all;
+}
+
+void ExactGroup::couple(span<const Entity> all) {
+  for (const Entity i : all) join(i);
+  for (const Entity i : all) unite(all.front(), i);
+  bodies_.islands.of(all.front()).end = bodies_.now;
+}
+
 void ExactGroup::await_step(Entity i) {
   if (bodies_.flights.curve(i) == nullptr) bodies_.flights.accelerate(i, Vec3::Zero());
   bodies_.islands.of(i).end = bodies_.now;
@@ -92,6 +111,7 @@ void ExactGroup::wake(Entity i) {
 }
 
 /// The sleeping bodies that touch body i, and those at the other ends of its taut strings and of its rods, each once.
+/// Those that forces connect with it, too.
 vector<Entity> ExactGroup::asleep_beside(Entity i) const {
   const double near = max(exact_tolerance::waking_gap * bodies_.world.radius[i], member[i].gap);  // m
   const Vec3 x = bodies_.position(i);
@@ -106,6 +126,10 @@ vector<Entity> ExactGroup::asleep_beside(Entity i) const {
     if (other == no_entity || bodies_.mode(other) != Mode::asleep || ranges::count(asleep, other) > 0) continue;
     if (bodies_.world.string(string).rod || bodies_.string_now(string).gap <= near) asleep.push_back(other);
   }
+
+  bodies_.couplings.for_each_link(i, bodies_.now.hi, [&](Entity other) {
+    if (bodies_.mode(other) == Mode::asleep && ranges::count(asleep, other) == 0) asleep.push_back(other);
+  });
   return asleep;
 }
 
