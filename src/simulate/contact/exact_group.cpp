@@ -28,7 +28,9 @@ ExactGroup::ExactGroup(ExactBodies& bodies, ModeChanges& modes, FlatContacts& fl
 
 void ExactGroup::join(Entity i) {
   if (bodies_.mode(i) == Mode::asleep) wake(i);
-  if (!is_member(bodies_.mode(i))) enlist(i);
+  if (is_member(bodies_.mode(i))) return;
+  if (!bodies_.islands.any()) bodies_.log.count_collapse();
+  enlist(i);
 }
 
 /// Makes an island of body i, which is free or asleep.
@@ -42,7 +44,6 @@ void ExactGroup::enlist(Entity i) {
   IslandMember& kept = member.write(i);
   kept.needed = bodies_.now;
 
-  if (!islands.any()) bodies_.log.count_collapse();
   islands.create(i, bodies_.now);
 }
 
@@ -60,8 +61,11 @@ vector<Entity> ExactGroup::coupled_with(Entity i) const {
 }
 
 void ExactGroup::couple(span<const Entity> all) {
-  for (const Entity i : all) join(i);
-  for (const Entity i : all) unite(all.front(), i);
+  for (const Entity i : all) {
+    if (bodies_.mode(i) == Mode::asleep) wake(i);
+    if (!is_member(bodies_.mode(i))) enlist(i);
+    unite(all.front(), i);
+  }
   bodies_.islands.of(all.front()).end = bodies_.now;
 }
 
@@ -87,6 +91,7 @@ void ExactGroup::unite(Entity a, Entity b) {
 }
 
 void ExactGroup::wake(Entity i) {
+  if (!bodies_.islands.any()) bodies_.log.count_collapse();
   bool crowd = false;
   vector<Entity> todo;
   const auto rouse = [&](Entity k) {

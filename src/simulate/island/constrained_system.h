@@ -9,6 +9,7 @@
 
 #include "geometry/touch.h"
 #include "numerics/dense_motion.h"
+#include "numerics/dormand_prince.h"
 #include "physics/coupled_forces.h"
 #include "simulate/contact/contact_list.h"
 #include "solver/contact_problem.h"
@@ -144,6 +145,7 @@ class ConstrainedSystem {
   bool any_bent() const;
   Vec3 place_of(const vector<Vec3>& x, uint32_t b, Entity e) const;
   Followed follow_smooth(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a, double h);
+  double error_between(const DenseMotion& motion, const DormandPrince::Acceleration& forces) const;
   void check_clock(double length) const;
   Followed follow_stiff(const vector<Vec3>& x, const vector<Vec3>& v, double h);
   double greatest_fade() const;
