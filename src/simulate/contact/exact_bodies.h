@@ -37,6 +37,9 @@ struct ExactBodies : BodyPaths {
   LazyArray<uint8_t> touches_nothing;
   /// Whether body i is in lasting contact with a thing.
   bool in_contact(Entity i) const { return in_lasting_contact(mode(i)) && touches_nothing[i] == 0; }
+  /// Adds the accelerations by forces between these bodies, which have all that they connect, to those of forces on
+  /// each of them (`applied`). They are in ascending order, at x (m) with velocities v (m/s). Returns these forces.
+  CoupledForces apply_couplings(span<const Entity> those, span<const Vec3> x, span<const Vec3> v);
   /// Whether forces between bodies act on one of these now.
   bool any_coupled(span<const Entity> those) const {
     return couplings.any() && any_of(those, [&](Entity i) { return is_coupled(i); });

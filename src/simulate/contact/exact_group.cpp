@@ -95,8 +95,8 @@ void ExactGroup::wake(Entity i) {
   bool crowd = false;
   vector<Entity> todo;
   const auto rouse = [&](Entity k) {
-    // Constrained motion rests on its partners.
-    crowd = crowd || modes_.partners(k).empty();
+    // Constrained motion rests on its partners, or on forces between bodies alone.
+    crowd = crowd || (modes_.partners(k).empty() && bodies_.touches_nothing[k] == 0);
     enlist(k);
     todo.push_back(k);
   };

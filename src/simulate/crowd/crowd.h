@@ -4,6 +4,7 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/vec3.h"
+#include "physics/coupled_forces.h"
 #include "physics/world.h"
 #include "simulate/crowd/crowd_rows.h"
 #include "simulate/path/instant.h"
@@ -89,9 +90,11 @@ struct Crowd {
   CrowdStep step;
   CrowdRest rest;
 
-  vector<RowName> struck;   // rows of sleeping bodies with an impact: they are to wake
-  double smallest = never;  // m, the least radius
-  double load = 0;          // m/s^2, the greatest acceleration by forces
+  vector<RowName> struck;    // rows of sleeping bodies with an impact: they are to wake
+  double smallest = never;   // m, the least radius
+  double load = 0;           // m/s^2, the greatest acceleration by forces
+  CoupledForces coupled;     // forces between members, which have the numbers of by_name
+  double coupling_rate = 0;  // 1/s, at which they change
   CrowdBalance balance;
 
   uint32_t movable() const { return uint32_t(members.size()); }
@@ -121,7 +124,7 @@ struct Crowd {
   }
   void keep(auto& archive) {
     archive(members, things, x, v, by_name, a, lag, lent, idle, pressed, still, rows, earlier);
-    archive(list, step, rest, struck, smallest, load, balance);
+    archive(list, step, rest, struck, smallest, load, coupled, coupling_rate, balance);
   }
 
   /// The velocity of member k (m/s) when its drift is so old (s).

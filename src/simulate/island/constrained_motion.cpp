@@ -47,9 +47,7 @@ bool ConstrainedMotion::count_change(Island& island, double load, double smalles
 
 bool ConstrainedMotion::advance(Entity i) {
   const bool undisturbed = bodies_.mode(i) == Mode::held && bodies_.now == bodies_.islands.of(i).planned;
-  const bool coupled = bodies_.any_coupled(bodies_.islands.of(i).members);
-  const bool may_be_busy =
-      !undisturbed && !bodies_.options.merge && !coupled && !bodies_.any_taut(bodies_.islands.of(i).members);
+  const bool may_be_busy = !undisturbed && !bodies_.options.merge && !bodies_.any_taut(bodies_.islands.of(i).members);
   if (!undisturbed && !bodies_.options.merge) take_in_touching(i);
 
   Island& island = bodies_.islands.of(i);
@@ -57,7 +55,9 @@ bool ConstrainedMotion::advance(Entity i) {
   vector<uint32_t> part;
   {
     IslandStep step = begin_step(island.members, undisturbed);
-    if (may_be_busy && !count_change(island, step.load, step.smallest)) return false;
+    // Impacts alone end steps of bodies that forces connect, too.
+    const bool changes = !step.couplings.any() || !step.contacts.pairs.empty();
+    if (may_be_busy && changes && !count_change(island, step.load, step.smallest)) return false;
     part = step.parts();
     if (all_of(part, [](uint32_t first) { return first == 0; })) {
       apply(step);
@@ -126,7 +126,8 @@ IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool und
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.smallest = min(step.smallest, bodies_.world.radius[i]);
-    bodies_.refresh(i, x, v);
+    // A crowd's forces on it may be those of others, too.
+    bodies_.couplings.any() ? bodies_.apply_forces(i, x, v) : bodies_.refresh(i, x, v);
   }
 
   step.couplings = bodies_.couplings.among(members, bodies_.now.hi, [&](Entity i) { return step.members.number(i); });

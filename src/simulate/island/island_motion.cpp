@@ -10,7 +10,7 @@ void IslandMotion::advance(Entity i) {
   bodies_.contact_work.end_paths(island.members, bodies_.now);
   for (const Entity k : island.members) paths_.note_change(k);
 
-  if (bodies_.any_taut(island.members) || bodies_.any_coupled(island.members)) island.busy = false;
+  if (bodies_.any_taut(island.members)) island.busy = false;
   if (!island.busy && island.crowds.empty() && constrained_.advance(i)) return;
   // It has united with an island that has taut strings, or it has been calm.
   if (!crowds_.advance(i)) return advance(i);

@@ -17,8 +17,7 @@ class IslandMotion {
         crowds_(bodies, modes, group, flights),
         constrained_(bodies, modes, group, flat, collapses, flights) {}
 
-  /// Takes the next step of body i's island. Islands with taut strings, or forces between
-  /// members, move by constrained motion.
+  /// Takes the next step of body i's island. Islands with taut strings move by constrained motion.
   void advance(Entity i);
   /// Ends the present step of member i's island, which is a crowd, at this instant. The next one is due.
   void interrupt(Entity i);
