@@ -236,7 +236,7 @@ constexpr Field drag_fields[] = {
 
 constexpr Field spring_fields[] = {
     row<SpringKeys, &SpringKeys::anchor>("anchor", "Fixed end; the other end is a body's centre, of each body of `on`.", "[0, 3, 0]", {.unit = "m", .one_of = "anchor|from", .needed = true}),
-    row<SpringKeys, &SpringKeys::from>("from", "One end: a fixed point, or the centre of a ball, body or member (gas.3).", "red", {.type = Type::point_or_name, .unit = "m", .one_of = "anchor|from", .needed = true, .title = "One end", .with = "to", .pattern = reference}),
+    row<SpringKeys, &SpringKeys::from>("from", "One end: a fixed point, or the centre of a ball, body or member (gas.3).", "red", {.type = Type::point_or_name, .unit = "m", .one_of = "anchor|from", .title = "One end", .with = "to", .pattern = reference}),
     row<SpringKeys, &SpringKeys::to>("to", "The other end: the same, but not two points.", "gas.3", {.type = Type::point_or_name, .unit = "m", .title = "The other end", .with = "from", .pattern = reference}),
     row<SpringKeys, &SpringKeys::stiffness>("stiffness", "Force per m of stretch.", "40", {.unit = "N/m", .range = from_0, .needed = true}),
     row_if_given<SpringKeys, &SpringKeys::rest_length>("rest_length", "Length at which the spring neither pulls nor pushes. Default: 0 from an `anchor`; between `from` and `to` their distance at time 0.", "0.5", {.unit = "m", .range = from_0, .title = "Rest length"}),
@@ -268,7 +268,7 @@ constexpr Field simulate_fields[] = {
 };
 
 constexpr Field contact_fields[] = {
-    row<ContactSettings, &ContactSettings::merge>("mode", "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", "merge", {.type = Type::choice, .of = "bounce|merge", .engines = "auto|exact"}),
+    row<ContactSettings, &ContactSettings::merge>("mode", "Whether bodies that meet bounce or merge into one; merge needs paths in closed form or by dop853, and excludes strings, quadratic drag and springs from fixed points.", "merge", {.type = Type::choice, .of = "bounce|merge", .engines = "auto|exact|stepped"}),
     row<ContactSettings, &ContactSettings::quality>("quality", "How finely pours, piles and heaps are computed: bodies with contacts that change too often to be followed one by one. Each level has a length of steps, an accuracy of forces and a gap that contacts keep, 1/1000 of the least radius at normal. preview may overlap by a twentieth of a radius.", "fast", {.of = quality_names}),
 };
 
