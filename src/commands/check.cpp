@@ -69,9 +69,12 @@ string strings_text(const World& world) {
 }
 
 string forces_text(const World& world) {
-  string text = counted(world.forces.size() + world.gravitations.size(), "force", "forces");
-  if (!world.springs.empty())
-    text += fmt::format(", {}", counted(world.springs.size(), "spring", "springs") + " between bodies");
+  const size_t on_each = world.forces.size() + world.gravitations.size();
+  string text = on_each > 0 || world.springs.empty() ? counted(on_each, "force", "forces") : "";
+  if (!world.springs.empty()) {
+    if (!text.empty()) text += " and ";
+    text += counted(world.springs.size(), "spring", "springs") + " between bodies";
+  }
   return text + " in addition to gravity";
 }
 

@@ -98,6 +98,7 @@ void add_springs(const Moment& moment, vector<Stroke>& strokes) {
     const Force& force = world.forces[k];
     const Spring* spring = std::get_if<Spring>(&force.law);
     if (spring == nullptr || contains(hidden, k)) continue;
+
     for (Entity body = 0; body < world.body_count(); ++body) {
       if (!acts(force, body, moment.state.time) || moment.is_part(body)) continue;
       const double rest =

@@ -97,6 +97,7 @@ TEST(Springs, OfARemovedBodyEndWithTheirEnergy) {
   region.volume = Volume::box({1, 1, 1});
   region.position = Vec3(0.5, 1.5, 0);
   region.removes = true;
+
   problem.world.regions = {region};
   problem.options.duration = 8;
   const Outcome run = run_exact(problem);
@@ -113,8 +114,10 @@ TEST(Springs, InBalanceFallAsleepAtTheirLength) {
   problem.plane(Vec3::Zero(), Vec3::UnitY());
   problem.world.springs = {{0, 1, 300, 0.8, 30}};
   problem.options.duration = 60;
+
   const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
   go_to(*simulator, problem.options.duration);
+
   const State& end = simulator->state();
   EXPECT_EQ(end.velocity[0], Vec3::Zero());
   EXPECT_EQ(end.velocity[1], Vec3::Zero());
@@ -123,11 +126,39 @@ TEST(Springs, InBalanceFallAsleepAtTheirLength) {
   EXPECT_EQ(simulator->tally().resting, 2u);
 }
 
+/// 150 balls poured into a box, two of them on a spring: a crowd, whose bodies the spring kicks.
+TEST(Springs, InAPileAreForcesAsAllOthers) {
+  SLOW_WITH_SANITIZERS();
+  Problem problem;
+  problem.world.gravity = Vec3(0, -10, 0);
+  problem.room({0, 0, 0}, {0.8, 9, 0.8});
+  for (int k = 0; k < 150; ++k)
+    problem.ball({0.1 + 0.2 * (k % 4) + 0.003 * (k % 7), 0.1 + 0.21 * (k / 16), 0.1 + 0.2 * (k / 4 % 4)}, Vec3::Zero(),
+                 1, 0.08, 0.3);
+  problem.world.springs = {{145, 149, 500, 0.5, 40}};
+  problem.options.duration = 3;
+
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  const Outcome run = run_to_end(*simulator, problem.options.duration);
+  EXPECT_EQ(run.tally.resting, 150u);
+  EXPECT_GT(run.tally.doubts.crowd_steps, 0u);
+  // Of 800 J. Errors of steps are all that is not booked.
+  EXPECT_NEAR(residual(problem, run), run.tally.doubts.contact_made, 1e-9);
+  EXPECT_LT(run.tally.doubts.contact_made, 0.1);
+
+  // The spring's force is in balance with contacts: the floor carries the whole weight.
+  double weight = 0;
+  for (const ContactForce& force : simulator->contacts())
+    if (force.b == 152) weight += force.force;
+  EXPECT_NEAR(weight, 1500, 15);
+}
+
 TEST(Springs, OfACubicLatticeKeepTheirEnergy) {
   SLOW_WITH_SANITIZERS();
   constexpr Entity n = 4;
   Problem problem;
   const auto name = [](Entity i, Entity j, Entity k) { return (i * n + j) * n + k; };
+
   for (Entity i = 0; i < n; ++i)
     for (Entity j = 0; j < n; ++j)
       for (Entity k = 0; k < n; ++k) {
@@ -137,6 +168,7 @@ TEST(Springs, OfACubicLatticeKeepTheirEnergy) {
         if (j > 0) problem.world.springs.push_back({name(i, j - 1, k), name(i, j, k), 100, 1, 0});
         if (k > 0) problem.world.springs.push_back({name(i, j, k - 1), name(i, j, k), 100, 1, 0});
       }
+
   problem.options.duration = 5 * 2 * std::numbers::pi / 10;
   const Outcome run = run_exact(problem);
   EXPECT_NEAR(residual(problem, run), 0, 1e-13);  // of 0.6 J
@@ -260,6 +292,7 @@ TEST(Couplings, AreRestoredFromASnapshot) {
   problem.world.gravitations = {{0.1, 0.1, 1, infinity, {0, 1, 3}}};
   problem.options.duration = 5;
   problem.options.record_paths = true;
+
   for (const bool merge : {false, true}) {
     problem.options.merge = merge;
     const MakeSimulator make = [&] { return make_exact_simulator(problem.world, problem.initial, problem.options); };

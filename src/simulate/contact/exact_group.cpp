@@ -77,7 +77,7 @@ void ExactGroup::await_step(Entity i) {
 void ExactGroup::unite(Entity a, Entity b) {
   Islands& islands = bodies_.islands;
   if (!islands.same(a, b)) {
-    if (bodies_.moving.any())
+    if (bodies_.moving.any() || bodies_.couplings.any())
       for (const Entity i : {a, b}) bodies_.contact_work.end_paths(islands.of(i).members, bodies_.now);
 
     const Mode united = max(bodies_.mode(a), bodies_.mode(b));

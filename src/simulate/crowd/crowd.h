@@ -42,9 +42,12 @@ struct CrowdStep {
   double shell = 0;            // m, that contacts keep
   int waits = 0;               // steps to come in which missing gaps do not return
   int waited = 0;              // the last number of these
+  CoupledForces coupled;       // forces between members, which have the numbers of Crowd::by_name
+  double coupling_rate = 0;    // 1/s, at which they change
 
   void keep(auto& archive) {
     archive(start, end, length, last_length, open, valid, solved, kinetic, next_switch, speed, shell, waits, waited);
+    archive(coupled, coupling_rate);
   }
 };
 
@@ -90,11 +93,9 @@ struct Crowd {
   CrowdStep step;
   CrowdRest rest;
 
-  vector<RowName> struck;    // rows of sleeping bodies with an impact: they are to wake
-  double smallest = never;   // m, the least radius
-  double load = 0;           // m/s^2, the greatest acceleration by forces
-  CoupledForces coupled;     // forces between members, which have the numbers of by_name
-  double coupling_rate = 0;  // 1/s, at which they change
+  vector<RowName> struck;   // rows of sleeping bodies with an impact: they are to wake
+  double smallest = never;  // m, the least radius
+  double load = 0;          // m/s^2, the greatest acceleration by forces
   CrowdBalance balance;
 
   uint32_t movable() const { return uint32_t(members.size()); }
@@ -124,7 +125,7 @@ struct Crowd {
   }
   void keep(auto& archive) {
     archive(members, things, x, v, by_name, a, lag, lent, idle, pressed, still, rows, earlier);
-    archive(list, step, rest, struck, smallest, load, coupled, coupling_rate, balance);
+    archive(list, step, rest, struck, smallest, load, balance);
   }
 
   /// The velocity of member k (m/s) when its drift is so old (s).

@@ -44,7 +44,7 @@ bool CrowdMotion::advance(Entity i) {
     if (Instant{crowd.step.next_switch, 0} <= bodies_.now || bodies_.varying || bodies_.couplings.any())
       renew_forces(crowd);
     // Nothing touches bodies that forces alone hold together.
-    if (crowd.coupled.any() && all_of(crowd.idle, [](uint8_t steps) { return steps >= tol::idle_steps; })) {
+    if (crowd.step.coupled.any() && all_of(crowd.idle, [](uint8_t steps) { return steps >= tol::idle_steps; })) {
       island.busy = false;
       continue;
     }
@@ -146,7 +146,7 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
 /// Books the work of forces between members in `since` (s) of the present step. Returns it, with what their potential
 /// loses (J).
 double CrowdMotion::book_couplings(const Crowd& crowd, double since) const {
-  if (!crowd.coupled.any()) return 0;
+  if (!crowd.step.coupled.any()) return 0;
   vector<Vec3> x;
   vector<Vec3> v;
   const auto place = [&](double t) {
@@ -156,15 +156,15 @@ double CrowdMotion::book_couplings(const Crowd& crowd, double since) const {
   for (const uint32_t k : crowd.by_name) v.push_back(crowd.drift(k));
 
   place(0);
-  double energy = crowd.coupled.potential(x).sum();
+  double energy = crowd.step.coupled.potential(x).sum();
   place(since);
-  energy -= crowd.coupled.potential(x).sum();
-  if (!crowd.coupled.works()) return energy;
+  energy -= crowd.step.coupled.potential(x).sum();
+  if (!crowd.step.coupled.works()) return energy;
 
   CoupledForces::Shares work;
   for (const GaussPoint& point : gauss_4) {
     place(point.at * since);
-    const CoupledForces::Shares power = crowd.coupled.power(x, v);
+    const CoupledForces::Shares power = crowd.step.coupled.power(x, v);
     work.springs += point.weight * since * power.springs;
     work.gravitation += point.weight * since * power.gravitation;
   }
@@ -315,12 +315,12 @@ void CrowdMotion::couple(Crowd& crowd) const {
     inverse_mass.push_back(1 / bodies_.world.mass[crowd.members[k]]);
   }
 
-  crowd.coupled = bodies_.apply_couplings(members, x, v);
-  crowd.coupling_rate = 0;
-  if (!crowd.coupled.any()) return;
+  crowd.step.coupled = bodies_.apply_couplings(members, x, v);
+  crowd.step.coupling_rate = 0;
+  if (!crowd.step.coupled.any()) return;
   const vector<double> exact(x.size(), 0);
-  for (const CoupledForces::Scale& of : crowd.coupled.scales(inverse_mass, x, v, exact))
-    crowd.coupling_rate = max(crowd.coupling_rate, of.rate);
+  for (const CoupledForces::Scale& of : crowd.step.coupled.scales(inverse_mass, x, v, exact))
+    crowd.step.coupling_rate = max(crowd.step.coupling_rate, of.rate);
 }
 
 /// The longest step that speeds and forces allow (s).
@@ -334,7 +334,7 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
         const double rate = force_rate(bodies_.world, i, crowd.position(k), crowd.drift(k));
         if (rate > 0) length = min(length, quality_.longest_step / rate);
       }
-  if (crowd.coupling_rate > 0) length = min(length, quality_.longest_step / crowd.coupling_rate);
+  if (crowd.step.coupling_rate > 0) length = min(length, quality_.longest_step / crowd.step.coupling_rate);
   length = min(length, tol::step_growth * crowd.step.last_length);
   return min(length, Instant{crowd.step.next_switch, 0} - bodies_.now);
 }
@@ -472,11 +472,11 @@ bool CrowdMotion::split(Crowd& crowd) {
   });
 
   // Forces connect members, too.
-  crowd.coupled.for_each_link([&](uint32_t a, uint32_t b) { sets.join(crowd.by_name[a], crowd.by_name[b]); });
+  crowd.step.coupled.for_each_link([&](uint32_t a, uint32_t b) { sets.join(crowd.by_name[a], crowd.by_name[b]); });
 
   // Parts with contacts or such forces, each by its first member. All others stay with the first of them.
   vector<uint8_t> presses(n, 0);
-  crowd.coupled.for_each_link([&](uint32_t a, uint32_t) { presses[sets.root(crowd.by_name[a])] = 1; });
+  crowd.step.coupled.for_each_link([&](uint32_t a, uint32_t) { presses[sets.root(crowd.by_name[a])] = 1; });
   for (uint32_t k = 0; k < n; ++k)
     if (crowd.pressed[k] != 0) presses[sets.root(k)] = 1;
   vector<uint32_t> first(n, ContactConstraint::fixed);

@@ -170,7 +170,7 @@ bool CrowdSleep::falls_asleep(Crowd& crowd) {
   if (!quality_.rests_by_speed) rests = slow_members(crowd);
   if (quality_.rests_by_speed ? !has_settled(crowd) : none_of(rests, std::identity())) return false;
   // Those that forces connect rest together.
-  if (crowd.coupled.any()) {
+  if (crowd.step.coupled.any()) {
     if (!all_of(rests, std::identity())) return false;
     apply_at_rest(crowd);
   }

@@ -570,6 +570,7 @@ double ConstrainedSystem::error_between(const DenseMotion& motion, const Dormand
   double greatest = 0;
   vector<Vec3> x;
   vector<Vec3> v;
+
   for (const double s : {0.25, 0.75}) {
     motion.at(s * h, x, v);
     const vector<Vec3> a = forces(x, v);

@@ -23,6 +23,7 @@ class Couplings {
   template <typename What>
   void for_each_link(Entity i, double time, What what) const {
     if (!any_) return;
+
     for (const uint32_t s : springs_of_[i])
       if (world_.springs[s].acts(time)) what(other_end(s, i));
     for (size_t g = 0; g < attracting_.size(); ++g) {
@@ -32,6 +33,7 @@ class Couplings {
         what(all.front());
         continue;
       }
+
       for (const Entity other : all)
         if (other != i) what(other);
     }
