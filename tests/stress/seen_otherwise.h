@@ -224,7 +224,13 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   join(world.walls, one.world.walls, two.world.walls);
   join(world.strings, one.world.strings, two.world.strings);
 
+  join(world.springs, one.world.springs, two.world.springs);
+
   // The second one's bodies have other numbers.
+  for (size_t k = one.world.springs.size(); k < world.springs.size(); ++k) {
+    world.springs[k].a += one.world.body_count();
+    world.springs[k].b += one.world.body_count();
+  }
   for (size_t k = one.world.strings.size(); k < world.strings.size(); ++k) {
     String& s = world.strings[k];
     s.body += one.world.body_count();
