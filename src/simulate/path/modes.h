@@ -22,8 +22,8 @@
 //                                      keep_pressing, remove: it is off that surface, and on another one
 //     carried            -> settling   FlatContacts::add: it bounces on one more surface
 //     settling, carried  -> flying     FlatContacts::keep_at, keep_pressing, remove, clear: it is off all surfaces
-//     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces; couple: forces
-//                                      between bodies
+//     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces
+//     any of these       -> fresh      ExactGroup::couple: a force between bodies sets in
 //     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode
 //                           stepped
 //     held               -> stepped    ExactGroup::unite: its island becomes one with a crowd
