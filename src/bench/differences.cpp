@@ -4,6 +4,7 @@
 
 #include "numerics/compensated.h"
 #include "physics/body_now.h"
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "std.h"
 
@@ -120,12 +121,21 @@ Differences differences(const World& world, const RecordedRun& reference, const 
   for (size_t k = 0; k < instants.size() && instants[k] <= until; ++k) {
     const State &there = reference.states[k], &here = run.states[k];
     Sum energy;
+    bool all_count = true;
     for (Entity body = 0; body < world.body_count(); ++body) {
       most.position = max(most.position, (here.position[body] - there.position[body]).norm());
-      if (!matching.same_side(body, instants[k])) continue;
+      if (!matching.same_side(body, instants[k])) {
+        all_count = false;
+        continue;
+      }
       most.velocity = max(most.velocity, (here.velocity[body] - there.velocity[body]).norm());
       energy.add(body_energy(world, here, body));
       energy.add(-body_energy(world, there, body));
+    }
+    // Forces between bodies have an energy of them all.
+    if (all_count && has_couplings(world)) {
+      energy.add(coupled_forces(world, here).potential(here.position).sum());
+      energy.add(-coupled_forces(world, there).potential(there.position).sum());
     }
     most.energy = max(most.energy, std::abs(energy.value()));
   }

@@ -18,6 +18,7 @@
 #include "export/flights_file.h"
 #include "export/tables.h"
 #include "files/checkpoint_file.h"
+#include "physics/coupled_forces.h"
 #include "physics/world.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"
@@ -69,7 +70,13 @@ string strings_text(const World& world) {
 }
 
 string forces_text(const World& world) {
-  return counted(world.forces.size(), "force", "forces") + " in addition to gravity";
+  const size_t on_each = world.forces.size() + world.gravitations.size();
+  string text = on_each > 0 || world.springs.empty() ? counted(on_each, "force", "forces") : "";
+  if (!world.springs.empty()) {
+    if (!text.empty()) text += " and ";
+    text += counted(world.springs.size(), "spring", "springs") + " between bodies";
+  }
+  return text + " in addition to gravity";
 }
 
 string regions_text(const Scene& scene) {
@@ -244,7 +251,8 @@ void describe(Block& block, const PlannedScene& planned, const Findings& finding
   block.line("fixed", fixed_text(planned.scene->world));
   if (const string volumes = volumes_text(*planned.scene); !volumes.empty()) block.line("volumes", volumes);
   if (!planned.scene->world.strings.empty()) block.line("strings", strings_text(planned.scene->world));
-  if (!planned.scene->world.forces.empty()) block.line("forces", forces_text(planned.scene->world));
+  if (!planned.scene->world.forces.empty() || has_couplings(planned.scene->world))
+    block.line("forces", forces_text(planned.scene->world));
   if (!planned.scene->world.regions.empty()) block.line("regions", regions_text(*planned.scene));
 
   if (const auto& start = planned.scene->made_from.start)
@@ -322,7 +330,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
                 {"obstacles", scene.world.obstacles.size()},
                 {"strings", scene.world.strings.size()},
                 {"regions", scene.roster.regions},
-                {"forces", scene.world.forces.size()},
+                {"forces", scene.world.forces.size() + scene.world.springs.size() + scene.world.gravitations.size()},
                 // How it moves.
                 {"engine", string(name_of(planned.price.engine.engine))},
                 {"why", planned.price.engine.why},

@@ -184,18 +184,33 @@ void DormandPrince::evaluate(size_t stage, const Acceleration& acceleration) {
   rate_[stage] = acceleration(x, v);
 }
 
-double DormandPrince::step(double h, const Acceleration& acceleration, double position, double velocity) {
+void DormandPrince::evaluate_all(double h, const Acceleration& acceleration) {
   length_ = h;
   for (size_t stage = 1; stage <= last; ++stage) evaluate(stage, acceleration);
+}
 
-  // The greatest error of a point along an axis.
+double DormandPrince::step(double h, const Acceleration& acceleration, double position, double velocity) {
+  evaluate_all(h, acceleration);
+  return greatest_error([&](size_t) { return position; }, [&](size_t) { return velocity; });
+}
+
+double DormandPrince::step(double h, const Acceleration& acceleration, span<const double> position,
+                           span<const double> velocity) {
+  evaluate_all(h, acceleration);
+  return greatest_error([&](size_t k) { return position[k]; }, [&](size_t k) { return velocity[k]; });
+}
+
+/// The greatest error of a point along an axis, as a share of position(k) (m) and velocity(k) (m/s).
+template <typename Position, typename Velocity>
+double DormandPrince::greatest_error(Position position, Velocity velocity) const {
+  const double h = length_;
   double greatest = 0;
   for (size_t k = 0; k < size(); ++k) {
     const Vec3 x5 = sum(error_5, velocity_, k), x3 = sum(error_3, velocity_, k);
     const Vec3 v5 = sum(error_5, rate_, k), v3 = sum(error_3, rate_, k);
     for (int axis = 0; axis < 3; ++axis) {
-      const double x_error = error_of(h, x5[axis], x3[axis]) / position;
-      const double v_error = error_of(h, v5[axis], v3[axis]) / velocity;
+      const double x_error = error_of(h, x5[axis], x3[axis]) / position(k);
+      const double v_error = error_of(h, v5[axis], v3[axis]) / velocity(k);
       if (!isfinite(x_error) || !isfinite(v_error)) return infinity;
       greatest = max({greatest, x_error, v_error});
     }

@@ -22,6 +22,8 @@ class DormandPrince final : public DenseMotion {
   /// Returns the greatest error of a point along an axis, as a share of `position` (m) and `velocity` (m/s). At most 1
   /// is within tolerance.
   double step(double h, const Acceleration& acceleration, double position, double velocity);
+  /// The same with errors of each point's own.
+  double step(double h, const Acceleration& acceleration, span<const double> position, span<const double> velocity);
   /// The step length (s) after a step of h (s) with this error, of order 8 in h. After a rejected step it is the length
   /// of the retry.
   static double next_length(double h, double error);
@@ -41,6 +43,9 @@ class DormandPrince final : public DenseMotion {
   static constexpr size_t stages = 16, terms = 7;
 
   void evaluate(size_t stage, const Acceleration& acceleration);
+  void evaluate_all(double h, const Acceleration& acceleration);
+  template <typename Position, typename Velocity>
+  double greatest_error(Position position, Velocity velocity) const;
   static Vec3 polynomial(const vector<Vec3>& coefficients, size_t k, double s);
 
   vector<Vec3> velocity_[stages], rate_[stages];  // m/s and m/s^2, of each stage

@@ -1,6 +1,7 @@
 // The scale is constant in time, so that the lengths of a film can be compared. It comes from the scene at time 0.
 #include "overlay/arrows.h"
 
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "scene/color_scale.h"
 #include "std.h"
@@ -23,27 +24,28 @@ struct ArrowText {
 constexpr array<ArrowText, 3> arrow_texts = {
     {{"velocity", "m/s", 0x2b7bba}, {"momentum", "kg m/s", 0x3d9a50}, {"force", "N", 0xd9541e}}};
 
-/// The force (N) of gravity and the scene's forces.
-Vec3 force_on(const Moment& moment, Entity body) {
+/// The force (N) of gravity and the scene's forces. coupled: m/s^2, by body, by forces between bodies.
+Vec3 force_on(const Moment& moment, const vector<Vec3>& coupled, Entity body) {
   const double mass = mass_now(moment.scene.world, moment.state, body);
-  return mass * free_acceleration(moment.scene.world, body, moment.state.time, moment.state.position[body],
-                                  moment.state.velocity[body]);
+  return mass * (coupled[body] + free_acceleration(moment.scene.world, body, moment.state.time,
+                                                   moment.state.position[body], moment.state.velocity[body]));
 }
 
 /// What arrows of this kind show of a body, in the kind's unit.
-Vec3 shown_by(ArrowScale::Kind kind, const Moment& moment, Entity body) {
+Vec3 shown_by(ArrowScale::Kind kind, const Moment& moment, const vector<Vec3>& coupled, Entity body) {
   const Vec3& velocity = moment.state.velocity[body];
   if (kind == ArrowScale::Kind::velocity) return velocity;
-  if (kind == ArrowScale::Kind::force) return force_on(moment, body);
+  if (kind == ArrowScale::Kind::force) return force_on(moment, coupled, body);
   return mass_now(moment.scene.world, moment.state, body) * velocity;
 }
 
 double greatest_force(const Scene& scene) {
   const World& world = scene.world;
+  const vector<Vec3> coupled = coupled_accelerations(world, scene.initial);
   double greatest = 0, heaviest = 0;
   for (Entity i = 0; i < world.body_count(); ++i) {
     const Vec3 a = free_acceleration(world, i, 0, scene.initial.position[i], scene.initial.velocity[i]);
-    greatest = max(greatest, world.mass[i] * a.norm());
+    greatest = max(greatest, world.mass[i] * (a + coupled[i]).norm());
     heaviest = max(heaviest, world.mass[i]);
   }
   return greatest > 0 ? greatest : heaviest * usual_gravity;
@@ -125,7 +127,8 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
   }
 
   // Without gravity and forces no arrow is ever drawn.
-  if (scene.overlay.force_arrows && !(scene.world.gravity.isZero(0) && scene.world.forces.empty()))
+  if (scene.overlay.force_arrows &&
+      !(scene.world.gravity.isZero(0) && scene.world.forces.empty() && !has_couplings(scene.world)))
     add(ArrowScale::Kind::force, greatest_force(scene));
   return scales;
 }
@@ -133,12 +136,15 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
 void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<Stroke>& strokes) {
   if (scales.empty()) return;
   const World& world = moment.scene.world;
+  vector<Vec3> coupled;
+  if (any_of(scales, [](const ArrowScale& scale) { return scale.kind == ArrowScale::Kind::force; }))
+    coupled = coupled_accelerations(world, moment.state);
   for (Entity body = 0; body < world.body_count(); ++body) {
     if (moment.is_part(body)) continue;
     const Vec3& x = moment.state.position[body];
 
     for (const ArrowScale& scale : scales) {
-      const Vec3 arrow = scale.length / scale.typical * shown_by(scale.kind, moment, body);
+      const Vec3 arrow = scale.length / scale.typical * shown_by(scale.kind, moment, coupled, body);
       const double length = arrow.norm();
       if (length < 0.25 * moment.pixel_at(x)) continue;
 

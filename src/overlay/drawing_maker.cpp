@@ -15,7 +15,8 @@ namespace carom {
 namespace {
 
 bool has_springs(const World& world) {
-  return any_of(world.forces, [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
+  return !world.springs.empty() ||
+         any_of(world.forces, [](const Force& force) { return std::holds_alternative<Spring>(force.law); });
 }
 
 bool has_strings(const Scene& scene) {

@@ -5,6 +5,7 @@
 #include "overlay/track_sampler.h"
 
 #include "physics/body_now.h"
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "std.h"
 
@@ -63,9 +64,23 @@ size_t TrackSampler::add_path(Entity body, const Known& known, double time, cons
   return last > first ? 3 : 2;
 }
 
+vector<TrackSampler::CouplingNow> TrackSampler::couplings_now(const State& state) const {
+  vector<CouplingNow> all(world_.body_count());
+  if (!has_couplings(world_)) return all;
+
+  const vector<Vec3> a = coupled_accelerations(world_, state);
+  vector<double> inverse_mass;
+  for (Entity i = 0; i < world_.body_count(); ++i) inverse_mass.push_back(1 / world_.mass[i]);
+  const vector<double> exact(world_.body_count(), 0);
+  const auto scales = coupled_forces(world_, state).scales(inverse_mass, state.position, state.velocity, exact);
+  for (size_t i = 0; i < all.size(); ++i) all[i] = {a[i], scales[i].rate};
+  return all;
+}
+
 void TrackSampler::sample(const State& state) {
   const bool own = !(state.time < next_);
   double step = longest_part * seconds_;
+  const vector<CouplingNow> coupled = couplings_now(state);
   for (const Entity body : tracks_.bodies()) {
     Known& known = known_[body];
     if (known.ended) continue;
@@ -73,7 +88,7 @@ void TrackSampler::sample(const State& state) {
 
     const bool ends = is_gone(state, body);
     Known now{state.position[body], state.velocity[body], Vec3::Zero(), {}, ends, 0};
-    now.a = free_acceleration(world_, body, state.time, now.x, now.v);
+    now.a = coupled[body].acceleration + free_acceleration(world_, body, state.time, now.x, now.v);
     const size_t pieces = started_ && state.time > time_ ? add_path(body, known, state.time, now, ends) : 0;
 
     // Between the instants of its own, only the tip is drawn on.
@@ -82,7 +97,7 @@ void TrackSampler::sample(const State& state) {
       continue;
     }
 
-    const double rate = force_rate(world_, body, now.x, now.v);
+    const double rate = force_rate(world_, body, now.x, now.v) + coupled[body].rate;
     if (rate > 0) step = min(step, 1 / (4 * rate));
     known = std::move(now);
   }

@@ -30,6 +30,13 @@ class TrackSampler {
     size_t tip = 0;          // pieces until a time that is not an own one
   };
 
+  /// What forces between bodies do to one of them now.
+  struct CouplingNow {
+    Vec3 acceleration = Vec3::Zero();  // m/s^2
+    double rate = 0;                   // 1/s, at which it changes
+  };
+
+  vector<CouplingNow> couplings_now(const State& state) const;
   /// Returns the number of pieces. `ends`: the body has become part of another.
   size_t add_path(Entity body, const Known& known, double time, const Known& now, bool ends);
 

@@ -4,6 +4,7 @@
 
 #include "numerics/compensated.h"
 #include "physics/body_now.h"
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 
 namespace carom {
@@ -16,10 +17,12 @@ double kinetic_energy(const World& world, const State& state) {
 }
 
 double potential_energy(const World& world, const State& state) {
-  if (world.gravity.isZero(0) && world.forces.empty()) return 0;
+  const bool coupled = has_couplings(world);
+  if (world.gravity.isZero(0) && world.forces.empty() && !coupled) return 0;
   Sum sum;
   for (Entity i = 0; i < world.body_count(); ++i)
     if (!is_removed(state, i)) sum.add(potential(world, i, state.position[i]));
+  if (coupled) sum.add(coupled_forces(world, state).potential(state.position).sum());
   return sum.value();
 }
 

@@ -28,10 +28,14 @@ double reach_of(const ForceLaw& law, const Vec3& x) {
 }  // namespace
 
 Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v) {
+  return free_acceleration(world, body, time, {x, v, world.mass[body]});
+}
+
+Vec3 free_acceleration(const World& world, Entity body, double time, const Particle& particle) {
   Vec3 a = world.gravity;
   for (const Force& force : world.forces) {
     if (!acts(force, body, time)) continue;
-    a += std::visit([&](const auto& law) { return law.acceleration({x, v, world.mass[body]}); }, force.law);
+    a += std::visit([&](const auto& law) { return law.acceleration(particle); }, force.law);
   }
   return a;
 }

@@ -12,6 +12,9 @@ namespace carom {
 /// The acceleration (m/s^2) from `time` (s) on, at position x (m) and velocity v (m/s).
 Vec3 free_acceleration(const World& world, Entity body, double time, const Vec3& x, const Vec3& v);
 
+/// The same of a particle, whose mass (kg) takes the place of the body's.
+Vec3 free_acceleration(const World& world, Entity body, double time, const Particle& particle);
+
 /// The part of one force's acceleration that does work, because it has no potential (m/s^2). The force must act on this
 /// body.
 Vec3 working_acceleration(const World& world, const Force& force, Entity body, const Vec3& x, const Vec3& v);

@@ -117,7 +117,8 @@ struct Tally {
   // J, lost in lasting contact beside impacts (below 0: made). This is the method's own error.
   double method_error = 0;
   double work = 0;  // J, by the World's forces (gravity apart)
-  // J, the part of each force in the work; empty: there are no forces, or it was not recorded.
+  // J, the part of each force in the work; empty: there are no forces, or it was not recorded. Where there are forces
+  // between bodies, those of springs and of gravitation are the last two.
   vector<double> force_work;
   Doubts doubts;
   double max_overlap = 0;  // m, deepest seen

@@ -2,8 +2,10 @@
 // What never changes during a run. What changes is State (state.h).
 
 #include "numerics/vec3.h"
+#include "physics/body_spring.h"
 #include "physics/entity.h"
 #include "physics/force_law.h"
+#include "physics/gravitation.h"
 #include "physics/surface_motion.h"
 #include "physics/volume.h"
 #include "physics/world_region.h"
@@ -97,6 +99,9 @@ struct World {
   vector<PairRestitution> pairs;  // the last match counts
   vector<WorldRegion> regions;
   vector<String> strings;
+  // Forces between bodies.
+  vector<BodySpring> springs{};
+  vector<Gravitation> gravitations{};
 
   Entity body_count() const { return Entity(mass.size()); }
   Entity fixed_count() const { return Entity(planes.size() + walls.size() + obstacles.size()); }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "numerics/compensated.h"
+#include "physics/coupled_forces.h"
 #include "physics/energy.h"
 #include "physics/force.h"
 #include "physics/world.h"
@@ -29,7 +30,8 @@ Vec3 starting_momentum(const Scene& scene) {
 vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tally& tally) {
   const World& world = scene.world;
   vector<ForceWork> all;
-  if (world.forces.empty() || tally.force_work.empty()) return all;
+  const bool coupled = has_couplings(world);
+  if ((world.forces.empty() && !coupled) || tally.force_work.empty()) return all;
 
   Sum fallen;
   for (Entity i = 0; i < world.body_count(); ++i)
@@ -44,6 +46,16 @@ vector<ForceWork> work_of_forces(const Scene& scene, const State& end, const Tal
       work.add(-potential(world, world.forces[k], i, end.position[i]));
     }
     all.push_back({fmt::format("forces.{}.{}", k, name_of(world.forces[k].law)), work.value()});
+  }
+
+  // Forces between bodies.
+  if (coupled) {
+    const auto before = coupled_forces(world, scene.initial).potential(scene.initial.position);
+    const auto after = coupled_forces(world, end).potential(end.position);
+    const double* const work = &tally.force_work[world.forces.size()];
+    if (!world.springs.empty()) all.push_back({"forces.spring", work[0] + before.springs - after.springs});
+    if (!world.gravitations.empty())
+      all.push_back({"forces.gravitation", work[1] + before.gravitation - after.gravitation});
   }
 
   // Merged bodies are moved out of what they overlap. No force does this work.

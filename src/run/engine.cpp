@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "files/processors.h"
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "scene/scene.h"
@@ -65,6 +66,7 @@ unique_ptr<Simulator> make_stepped(const SimulatorRequest& request) {
   const StepChoice& steps = request.steps;
   ExactOptions options = exact_options(request);
   options.integrator = simulate.integrator;
+  options.merge = simulate.contact.merge;
   options.closed_forms = !steps.numerical;
   const optional<double> step = steps.length ? steps.length : simulate.step;
   if (step)
@@ -107,7 +109,9 @@ EngineChoice choose_engine(const Scene& scene) {
   if (scene.simulate.engine == Engine::automatic) {
     const Force* open = force_without_closed_form(scene.world);
     const bool tied = !scene.world.strings.empty();
+    const bool coupled = has_couplings(scene.world);
     choice.why = open != nullptr ? fmt::format("auto: under {} paths have no closed form", open_force_text(*open))
+                 : coupled       ? "auto: bodies under forces between them fly as one system"
                  : tied          ? "auto: every path without a taut string has a closed form"
                                  : "auto: every path of this scene has a closed form";
   }

@@ -66,6 +66,7 @@ class Warnings {
     const vector<Force>& forces = scene_.world.forces;
     const bool attracts =
         any_of(forces, [](const Force& force) { return std::holds_alternative<Attractor>(force.law); });
+    if (!scene_.world.gravitations.empty()) return "shorten simulate.duration, or soften `gravitation`";
     return attracts ? "shorten simulate.duration, or soften the attractor" : "shorten simulate.duration";
   }
 

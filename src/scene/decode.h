@@ -78,6 +78,10 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
 void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the lengths of strings, and checks them against the distances of their ends. Bodies must be decoded before.
 void decode_lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// Decodes the rest lengths of springs that have two ends and give none. Bodies must be decoded before.
+void decode_rest_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// The body of one end of a string or a spring (`what`). None: an error was reported, here or before.
+optional<Entity> body_at(const Node& name, const Inventory& inventory, string_view what, Diagnostics& diagnostics);
 /// Decodes the regions, and `simulate.stop`. Bodies need not be decoded before.
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.

@@ -66,9 +66,72 @@ optional<ForceLaw> law_of(const ForceKeys& force) {
   if (force.uniform) law = UniformForce{*force.uniform};
   if (force.acceleration) law = UniformAcceleration{*force.acceleration};
   if (force.drag) law = *force.drag;
-  if (force.spring) law = *force.spring;
+  if (const auto& spring = force.spring; spring && spring->anchor)
+    law = Spring{*spring->anchor, spring->stiffness, spring->rest_length.value_or(0), spring->damping};
   if (force.attractor) law = *force.attractor;
   return law;
+}
+
+/// The two ends of a spring: bodies, of which one may be no_entity with its point (m) in its place.
+struct SpringEnds {
+  Entity a = no_entity;
+  Entity b = no_entity;
+  Vec3 point = Vec3::Zero();
+};
+
+optional<SpringEnds> ends_of(const SpringKeys& spring, const Inventory& inventory, Diagnostics& diagnostics) {
+  if (spring.from == nullptr || spring.to == nullptr || spring.from->bad || spring.to->bad) return nullopt;
+  if (spring.from->is_sequence() && spring.to->is_sequence()) {
+    diagnostics.add(spring.to->place, "both ends of the spring are fixed points",
+                    "expected a ball, a body or a member (gas.3) at one end at least");
+    return nullopt;
+  }
+
+  // A fixed end is the second one.
+  SpringEnds ends;
+  const bool is_turned = spring.from->is_sequence();
+  const Node& first = is_turned ? *spring.to : *spring.from;
+  const Node& second = is_turned ? *spring.from : *spring.to;
+  const optional<Entity> a = body_at(first, inventory, "spring", diagnostics);
+  if (second.is_sequence()) {
+    const optional<Vec3> point = as_vector(&second);
+    if (!a || !point) return nullopt;
+    return SpringEnds{*a, no_entity, *point};
+  }
+
+  const optional<Entity> b = body_at(second, inventory, "spring", diagnostics);
+  if (!a || !b) return nullopt;
+  if (*a == *b) {
+    diagnostics.add(second.place, fmt::format("both ends of the spring are {}", in_backticks(second.text)),
+                    "expected two bodies, or a point and a body");
+    return nullopt;
+  }
+  // Both directions are the same spring.
+  return SpringEnds{min(*a, *b), max(*a, *b), Vec3::Zero()};
+}
+
+/// A rest length that is the distance of the ends at time 0, until bodies are decoded.
+constexpr double distance_at_start = numeric_limits<double>::quiet_NaN();
+
+/// A spring between two ends.
+void decode_spring(const ForceKeys& force, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  const SpringKeys& keys = *force.spring;
+  if (force.on != nullptr)
+    diagnostics.add(force.on->place, "`on` beside `from` and `to`: the spring acts on its two ends",
+                    "leave out `on`; a spring from a point to each of many bodies has an `anchor`");
+  const optional<SpringEnds> ends = ends_of(keys, inventory, diagnostics);
+  if (!ends || (keys.stiffness == 0 && keys.damping == 0)) return;
+
+  const double rest_length = keys.rest_length.value_or(distance_at_start);
+  World& world = scene.world;
+  if (ends->b == no_entity) {
+    if (!force.visible) scene.overlay.hidden_springs.push_back(world.forces.size());
+    const Spring spring{ends->point, keys.stiffness, rest_length, keys.damping};
+    world.forces.push_back({spring, force.from, force.until, {ends->a}});
+  } else {
+    if (!force.visible) scene.overlay.hidden_body_springs.push_back(world.springs.size());
+    world.springs.push_back({ends->a, ends->b, keys.stiffness, rest_length, keys.damping, force.from, force.until});
+  }
 }
 
 void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
@@ -79,7 +142,16 @@ void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Di
                     fmt::format("`until` is {} but `from` is {}", shortest(force.until), shortest(force.from)),
                     "expected from < until");
   }
+  if (force.spring && (force.spring->from != nullptr || force.spring->to != nullptr))
+    return decode_spring(force, inventory, scene, diagnostics);
+
   optional<vector<Entity>> on = find_bodies(force.on, inventory, "no force acts on it", diagnostics);
+  if (on && force.gravitation && force.gravitation->constant != 0) {
+    const auto [constant, softening] = *force.gravitation;
+    scene.world.gravitations.push_back({constant, softening, force.from, force.until, std::move(*on)});
+    return;
+  }
+
   const optional<ForceLaw> law = law_of(force);
   if (!law || !on || !std::visit([](const auto& any) { return has_effect(any); }, *law)) return;
   if (!force.visible) scene.overlay.hidden_springs.push_back(scene.world.forces.size());
@@ -103,6 +175,43 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   };
   each(laws.find("pairs"), [&](const Node& node) { decode_pair(node, inventory, scene, diagnostics); });
   each(root.find("forces"), [&](const Node& node) { decode_force(node, inventory, scene, diagnostics); });
+}
+
+void decode_rest_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  const Node* const list = root.find("forces");
+  if (list == nullptr || !list->is_sequence() || !diagnostics.empty()) return;
+
+  // All springs are right, and stand in the order of the list.
+  World& world = scene.world;
+  const vector<Vec3>& x = scene.initial.position;
+  auto spring = world.springs.begin();
+  auto anchored = world.forces.begin();
+  for (const Node& node : list->items) {
+    const auto force = filled<ForceKeys>(View(&node, kind_named("force"), node.place));
+    if (!force.spring || force.spring->from == nullptr) continue;
+    if (force.spring->stiffness == 0 && force.spring->damping == 0) continue;
+    const optional<SpringEnds> ends = ends_of(*force.spring, inventory, diagnostics);
+    if (!ends) return;
+
+    double* length = nullptr;
+    if (ends->b != no_entity) {
+      length = &(spring++)->rest_length;
+    } else if (!force.spring->rest_length) {
+      const auto is_next = [](const Force& f) {
+        const Spring* const law = std::get_if<Spring>(&f.law);
+        return law != nullptr && std::isnan(law->rest_length);
+      };
+      anchored = std::find_if(anchored, world.forces.end(), is_next);
+      length = &std::get<Spring>(anchored->law).rest_length;
+    }
+    if (force.spring->rest_length) continue;
+
+    *length = (x[ends->a] - (ends->b == no_entity ? ends->point : x[ends->b])).norm();
+    if (!scene.made_from.start) continue;
+    diagnostics.add(force.spring->from->place,
+                    "the spring has no `rest_length`, and its ends begin where a former run had them",
+                    "expected `rest_length`: the distance at which the spring neither pulls nor pushes");
+  }
 }
 
 }  // namespace carom

@@ -21,8 +21,9 @@ constexpr double rounding_of_runs = 1e-9;
 
 constexpr string_view good_end = "expected a ball, a body or a member (gas.3)";
 
-/// The body of one end. None: an error was reported, here or before.
-optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnostics& diagnostics) {
+}  // namespace
+
+optional<Entity> body_at(const Node& name, const Inventory& inventory, string_view what, Diagnostics& diagnostics) {
   const auto range = find_range(name, inventory, Sought::bodies, diagnostics);
   if (!range) return nullopt;
   if (range->count == 0) {
@@ -34,7 +35,7 @@ optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnosti
   if (range->first >= inventory.body_count) {
     diagnostics.add(
         name.place,
-        fmt::format("{} is {}: no string is tied to it", in_backticks(name.text), inventory.word_for(*range)),
+        fmt::format("{} is {}: no {} is tied to it", in_backticks(name.text), inventory.word_for(*range), what),
         fmt::format("{}; a fixed end is a point: `from: [x, y, z]`", good_end));
     return nullopt;
   }
@@ -42,13 +43,16 @@ optional<Entity> body_at(const Node& name, const Inventory& inventory, Diagnosti
   if (range->count > 1) {
     diagnostics.add(
         name.place,
-        fmt::format("{} has {} bodies: a string has one at each end", in_backticks(name.text), range->count),
-        fmt::format("expected one of them, such as {0}.0; for a string to each `repeat`, and '{0}.{{i}}'", name.text));
+        fmt::format("{} has {} bodies: a {} has one at each end", in_backticks(name.text), range->count, what),
+        fmt::format("expected one of them, such as {0}.0; for a {1} to each `repeat`, and '{0}.{{i}}'", name.text,
+                    what));
     return nullopt;
   }
 
   return range->first;
 }
+
+namespace {
 
 /// A string without a length. With an error it may lack a body.
 String decode_string(const View& view, const Inventory& inventory, Diagnostics& diagnostics) {
@@ -64,8 +68,8 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
 
   // Its ends.
   if (is_point) string.anchor = as_vector(keys.from).value_or(Vec3::Zero());
-  const optional<Entity> from = is_point ? optional(no_entity) : body_at(*keys.from, inventory, diagnostics);
-  const optional<Entity> to = body_at(*keys.to, inventory, diagnostics);
+  const optional<Entity> from = is_point ? optional(no_entity) : body_at(*keys.from, inventory, "string", diagnostics);
+  const optional<Entity> to = body_at(*keys.to, inventory, "string", diagnostics);
   if (!from || !to) return string;
 
   if (*from == *to) {

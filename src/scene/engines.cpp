@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "scene/field.h"
@@ -16,6 +17,25 @@ namespace {
 
 using Lacks = vector<Unsupported>;
 
+/// The first of the forces between bodies, in words.
+string_view coupling_text(const World& world) {
+  return world.springs.empty() ? "`gravitation`" : "springs between bodies";
+}
+
+/// Joint bodies have the forces on all their parts. Not all laws are the same for the sum.
+void merge_lacks(const World& world, Lacks& lacks) {
+  for (const Force& force : world.forces) {
+    if (!bends(force.law) || std::holds_alternative<Attractor>(force.law)) continue;
+    lacks.push_back(
+        {"contact",
+         fmt::format("`contact: merge` is for constant forces, linear drag, attractors and forces between "
+                     "bodies, not for {}",
+                     std::holds_alternative<Drag>(force.law) ? "quadratic `drag`" : "a `spring` from a fixed point"),
+         "expected `contact: bounce`"});
+    return;
+  }
+}
+
 void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (const Force* open = force_without_closed_form(world))
     lacks.push_back(
@@ -27,22 +47,23 @@ void exact_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
     lacks.push_back({"contact", "`contact: merge` is for parabolas and linear drag, not for `strings`",
                      "expected `contact: bounce`"});
 
-  if (const Force* bending = bending_force(world); bending != nullptr && simulate.contact.merge)
-    lacks.push_back(
-        {"contact",
-         fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`", name_of(bending->law)),
-         "expected `contact: bounce`"});
+  if (simulate.contact.merge) merge_lacks(world, lacks);
 }
 
 void stepped_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
-  if (!simulate.contact.merge) return;
-  // If `auto` excludes the exact engine, name the force that is the cause.
-  const Force* bending = simulate.engine == Engine::automatic ? bending_force(world) : nullptr;
-  lacks.push_back({"contact",
-                   bending == nullptr ? "`engine: stepped` has no `contact: merge`"
-                                      : fmt::format("`contact: merge` is for parabolas and linear drag, not for `{}`",
-                                                    name_of(bending->law)),
-                   "expected `contact: bounce`"});
+  // Steps of one length are those of each body by itself.
+  if (simulate.integrator != Integrator::dop853) {
+    const auto lack = [&](const char* at, string_view what) {
+      lacks.push_back({at, fmt::format("`integrator: {}` has no {}", name_of(simulate.integrator), what),
+                       "expected `integrator: dop853`, or `engine: exact`"});
+    };
+    if (has_couplings(world)) lack("forces", coupling_text(world));
+    if (simulate.contact.merge) lack("contact", "`contact: merge`");
+  } else if (simulate.contact.merge) {
+    merge_lacks(world, lacks);
+    if (!world.strings.empty())
+      lacks.push_back({"contact", "`contact: merge` has no `strings`", "expected `contact: bounce`"});
+  }
 }
 
 // The chapter's listings cover spheres, planes and walls, gravity and the impulses of the first frame.
@@ -63,7 +84,7 @@ void book_lacks(const World& world, const Simulate& simulate, Lacks& lacks) {
   if (any_of(world.regions, [](const WorldRegion& region) { return region.removes; }))
     lack("regions", "regions with `action: remove`", "`engine: exact`");
 
-  if (!world.forces.empty())
+  if (!world.forces.empty() || has_couplings(world))
     lack("forces", "forces other than gravity",
          varying_force(world) == nullptr ? "`engine: exact`" : "`engine: stepped`");
 }
@@ -88,7 +109,7 @@ Engine engine_of(const World& world, const Simulate& simulate) {
 }
 
 bool goes_along_parabolas(const World& world, const Simulate& simulate) {
-  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr;
+  return engine_of(world, simulate) == Engine::exact && varying_force(world) == nullptr && !has_couplings(world);
 }
 
 string open_force_text(const Force& force) {

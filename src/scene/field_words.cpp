@@ -40,10 +40,11 @@ bool holds_whole_numbers(const Field& field) {
 
 span<const UnitLimit> unit_limits() {
   static constexpr UnitLimit limits[] = {
-      {"", 1e-90, 1e90},         {"m", 1e-30, 1e30},     {"s", 1e-30, 1e30},       {"1/s", 1e-30, 1e30},
-      {"m/s", 1e-30, 1e30},      {"m/s^2", 1e-30, 1e30}, {"m^3/s^2", 1e-90, 1e90}, {"kg", 1e-60, 1e60},
-      {"kg/m^3", 1e-150, 1e150}, {"N", 1e-60, 1e60},     {"N s", 1e-60, 1e60},     {"N/m", 1e-60, 1e60},
-      {"kg/s", 1e-60, 1e60},     {"kg/m", 1e-60, 1e60},
+      {"", 1e-90, 1e90},         {"m", 1e-30, 1e30},    {"s", 1e-30, 1e30},
+      {"1/s", 1e-30, 1e30},      {"m/s", 1e-30, 1e30},  {"m/s^2", 1e-30, 1e30},
+      {"m^3/s^2", 1e-90, 1e90},  {"kg", 1e-60, 1e60},   {"m^3/(kg s^2)", 1e-120, 1e30},
+      {"kg/m^3", 1e-150, 1e150}, {"N", 1e-60, 1e60},    {"N s", 1e-60, 1e60},
+      {"N/m", 1e-60, 1e60},      {"kg/s", 1e-60, 1e60}, {"kg/m", 1e-60, 1e60},
   };
   return limits;
 }

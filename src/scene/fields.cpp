@@ -237,14 +237,15 @@ constexpr Field side_fields[] = {
     row<SideKeys, &SideKeys::normal>("normal", "Points to the side that is the region; any length.", "[0, -1, 0]", {.type = Type::direction, .needed = true}),
 };
 
-constexpr string_view forces = "uniform|acceleration|drag|spring|attractor";
+constexpr string_view forces = "uniform|acceleration|drag|spring|attractor|gravitation";
 
 constexpr Field force_fields[] = {
     row<ForceKeys, &ForceKeys::uniform>("uniform", "The same force on each body.", "[2, 0, 0]", {.unit = "N", .one_of = forces, .needed = true}),
     row<ForceKeys, &ForceKeys::acceleration>("acceleration", "The same acceleration of each body.", "[3, 0, 0]", {.unit = "m/s^2", .one_of = forces}),
     row<ForceKeys, &ForceKeys::drag>("drag", "Drag of air or another medium.", "{linear: 0.1, wind: [5, 0, 0]}", {.of = "drag", .one_of = forces}),
-    row<ForceKeys, &ForceKeys::spring>("spring", "A spring from a fixed point to each body.", "{anchor: [0, 3, 0], stiffness: 40, rest_length: 0.5}", {.of = "spring", .one_of = forces}),
+    row<ForceKeys, &ForceKeys::spring>("spring", "A spring from a fixed point to each body of `on`, or between two bodies.", "{anchor: [0, 3, 0], stiffness: 40, rest_length: 0.5}", {.of = "spring", .one_of = forces}),
     row<ForceKeys, &ForceKeys::attractor>("attractor", "Attraction to a fixed point, as by gravity.", "{center: [0, 0, 0], strength: 10}", {.of = "attractor", .one_of = forces}),
+    row<ForceKeys, &ForceKeys::gravitation>("gravitation", "Mutual attraction of all bodies of `on`.", "{constant: 6.674e-11, softening: 0.01}", {.of = "gravitation", .one_of = forces}),
     row<ForceKeys, &ForceKeys::on>("on", "Balls, bodies, groups and members that it acts on. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that it acts on", .pattern = reference}),
     row<ForceKeys, &ForceKeys::from>("from", "When the force starts.", "0.5", {.unit = "s", .range = from_0, .title = "Start"}),
     row_if_given<ForceKeys, &ForceKeys::until>("until", "When the force ends. Default: never.", "1.5", {.unit = "s", .range = above_0, .title = "End"}),
@@ -259,16 +260,23 @@ constexpr Field drag_fields[] = {
 };
 
 constexpr Field spring_fields[] = {
-    row<Spring, &Spring::anchor>("anchor", "Fixed end; the other end is a body's centre.", "[0, 3, 0]", {.unit = "m", .needed = true}),
-    row<Spring, &Spring::stiffness>("stiffness", "Force per m of stretch.", "40", {.unit = "N/m", .range = from_0, .needed = true}),
-    row<Spring, &Spring::rest_length>("rest_length", "Length at which the spring neither pulls nor pushes.", "0.5", {.unit = "m", .range = from_0, .title = "Rest length"}),
-    row<Spring, &Spring::damping>("damping", "Force per m/s along the spring.", "0.2", {.unit = "kg/s", .range = from_0}),
+    row<SpringKeys, &SpringKeys::anchor>("anchor", "Fixed end; the other end is a body's centre, of each body of `on`.", "[0, 3, 0]", {.unit = "m", .one_of = "anchor|from", .needed = true}),
+    row<SpringKeys, &SpringKeys::from>("from", "One end: a fixed point, or the centre of a ball, body or member (gas.3).", "red", {.type = Type::point_or_name, .unit = "m", .one_of = "anchor|from", .title = "One end", .with = "to", .pattern = reference}),
+    row<SpringKeys, &SpringKeys::to>("to", "The other end: the same, but not two points.", "gas.3", {.type = Type::point_or_name, .unit = "m", .title = "The other end", .with = "from", .pattern = reference}),
+    row<SpringKeys, &SpringKeys::stiffness>("stiffness", "Force per m of stretch.", "40", {.unit = "N/m", .range = from_0, .needed = true}),
+    row_if_given<SpringKeys, &SpringKeys::rest_length>("rest_length", "Length at which the spring neither pulls nor pushes. Default: 0 from an `anchor`; between `from` and `to` their distance at time 0.", "0.5", {.unit = "m", .range = from_0, .title = "Rest length"}),
+    row<SpringKeys, &SpringKeys::damping>("damping", "Force per m/s along the spring.", "0.2", {.unit = "kg/s", .range = from_0}),
 };
 
 constexpr Field attractor_fields[] = {
     row<Attractor, &Attractor::center>("center", "Centre of attraction.", "[0, 0, 0]", {.unit = "m", .needed = true}),
     row<Attractor, &Attractor::strength>("strength", "Acceleration at 1 m; G M of a mass M. Negative: repulsion.", "10", {.unit = "m^3/s^2", .needed = true}),
     row<Attractor, &Attractor::softening>("softening", "Length s: sqrt(d^2 + s^2) takes the place of the distance d, so that the attraction stays finite.", "0.05", {.unit = "m", .range = from_0}),
+};
+
+constexpr Field gravitation_fields[] = {
+    row<GravitationKeys, &GravitationKeys::constant>("constant", "Acceleration of one body by another one is this times the mass of that over the square of the distance. Negative: repulsion.", "1", {.unit = "m^3/(kg s^2)"}),
+    row<GravitationKeys, &GravitationKeys::softening>("softening", "Length s: sqrt(d^2 + s^2) takes the place of the distance d, so that the attraction stays finite.", "0.05", {.unit = "m", .range = from_0}),
 };
 
 constexpr Field simulate_fields[] = {
@@ -285,7 +293,7 @@ constexpr Field simulate_fields[] = {
 };
 
 constexpr Field contact_fields[] = {
-    row<ContactSettings, &ContactSettings::merge>("mode", "Whether bodies that meet bounce or merge into one; merge needs engine exact, which auto may choose.", "merge", {.type = Type::choice, .of = "bounce|merge", .engines = "auto|exact"}),
+    row<ContactSettings, &ContactSettings::merge>("mode", "Whether bodies that meet bounce or merge into one; merge needs paths in closed form or by dop853, and excludes strings, quadratic drag and springs from fixed points.", "merge", {.type = Type::choice, .of = "bounce|merge", .engines = "auto|exact|stepped"}),
     row<ContactSettings, &ContactSettings::quality>("quality", "How finely pours, piles and heaps are computed: bodies with contacts that change too often to be followed one by one. Each level has a length of steps, an accuracy of forces and a gap that contacts keep, 1/1000 of the least radius at normal. preview may overlap by a twentieth of a radius.", "fast", {.of = quality_names}),
 };
 
@@ -366,8 +374,10 @@ constexpr Kind kinds_of_scenes[] = {
     {"force", "a", "A force on bodies, for the whole run or a window of time.", force_fields},
     {"drag", "", "Drag of a medium, against a body's velocity relative to it.", drag_fields, nullptr, "",
      "linear|quadratic"},
-    {"spring", "", "A spring from a fixed point, with a damper in parallel.", spring_fields},
+    {"spring", "", "A spring with a damper in parallel, from a fixed point or between two bodies.", spring_fields},
     {"attractor", "", "Attraction to a fixed point by the inverse square of the distance.", attractor_fields},
+    {"gravitation", "", "Attraction of bodies to each other by the inverse square of the distance.",
+     gravitation_fields},
     {"start", "", "The former run from which bodies begin.", start_fields},
     {"simulate", "", "Duration, engine and accuracy.", simulate_fields},
     {"contact", "", "What happens where bodies meet.", contact_fields},

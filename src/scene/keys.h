@@ -163,13 +163,29 @@ struct PairKeys {
   const Node* value = nullptr;    // a number, or none
 };
 
+/// A spring from a fixed point to each body, or between two ends.
+struct SpringKeys {
+  optional<Vec3> anchor;         // m
+  const Node* from = nullptr;    // a point (m) or a name
+  const Node* to = nullptr;      // the same
+  double stiffness = 0;          // N/m
+  optional<double> rest_length;  // m; none: 0 from an anchor, otherwise the distance at time 0
+  double damping = 0;            // kg/s
+};
+
+struct GravitationKeys {
+  double constant = 6.674e-11;  // m^3/(kg s^2)
+  double softening = 0;         // m
+};
+
 /// One law, in a window of time.
 struct ForceKeys {
   optional<Vec3> uniform;       // N
   optional<Vec3> acceleration;  // m/s^2
   optional<Drag> drag;
-  optional<Spring> spring;
+  optional<SpringKeys> spring;
   optional<Attractor> attractor;
+  optional<GravitationKeys> gravitation;
   const Node* on = nullptr;  // names; null: all bodies
   double from = 0;           // s
   double until = infinity;   // s

@@ -134,6 +134,7 @@ struct SceneFile::Impl {
     if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     if (inventory.fits) decode_lengths(inventory, scene, diagnostics);
+    if (inventory.fits) decode_rest_lengths(tree, inventory, scene, diagnostics);
 
     // What needs the bodies.
     decode_camera(tree, inventory, scene, diagnostics);

@@ -24,7 +24,7 @@ class MotionText {
   string run() {
     simulate();
     const auto& [mass, radius, volume, restitution, impulse, appears, pours, planes, walls, obstacles, motions, forces,
-                 gravity, combine, pairs, regions, strings] = scene_.world;
+                 gravity, combine, pairs, regions, strings, springs, gravitations] = scene_.world;
 
     line("gravity", gravity, "combine", int(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
@@ -52,6 +52,13 @@ class MotionText {
     for (const WorldRegion& region : regions) write(region);
     for (const auto& [body, other, anchor, length, own, rod] : strings)
       line("string", body, other, anchor, length, own, int(rod));
+
+    for (const auto& [a, b, stiffness, rest_length, damping, from, until] : springs)
+      line("between", a, b, stiffness, rest_length, damping, from, until);
+    for (const auto& [constant, softening, from, until, on] : gravitations) {
+      line("gravitation", constant, softening, from, until);
+      for (const Entity body : on) line("on", body);
+    }
     return std::move(text_);
   }
 

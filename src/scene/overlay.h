@@ -38,6 +38,8 @@ struct Overlay {
   double shutter = 0;
   /// Numbers of forces in World::forces. Their springs are not drawn.
   vector<size_t> hidden_springs;
+  // Numbers of springs between bodies that are not drawn, ascending.
+  vector<size_t> hidden_body_springs;
   /// Numbers of strings in World::strings that are not drawn, ascending.
   vector<size_t> hidden_strings;
 };

@@ -10,9 +10,9 @@
 
 namespace carom {
 
-EventLog::EventLog(uint64_t max_collisions, bool record_collisions, size_t forces)
-    : max_collisions_(max_collisions), record_collisions_(record_collisions), force_work_(forces) {
-  tally_.force_work.resize(forces);
+EventLog::EventLog(uint64_t max_collisions, bool record_collisions, size_t forces, bool coupled)
+    : max_collisions_(max_collisions), record_collisions_(record_collisions), force_work_(forces + (coupled ? 2 : 0)) {
+  tally_.force_work.resize(force_work_.size());
   if (record_collisions) collisions_.reserve(capacity);
 }
 

@@ -3,6 +3,7 @@
 
 #include "numerics/compensated.h"
 #include "physics/collision.h"
+#include "physics/coupled_forces.h"
 #include "physics/tally.h"
 #include "solver/contact_problem.h"
 #include "std.h"
@@ -19,8 +20,8 @@ struct AbsorbedImpact {
 class EventLog {
  public:
   /// max_collisions: one more is an error; 0: no limit. record_collisions: if false, collisions are only counted,
-  /// without a buffer. `forces`: number of forces with sums of their own.
-  EventLog(uint64_t max_collisions, bool record_collisions, size_t forces = 0);
+  /// without a buffer. `forces`: number of forces with sums of their own. coupled: there are forces between bodies.
+  EventLog(uint64_t max_collisions, bool record_collisions, size_t forces = 0, bool coupled = false);
 
   /// Empties the buffer for the next advance.
   void begin_advance() { collisions_.clear(); }
@@ -56,6 +57,12 @@ class EventLog {
     add_work(work);
     force_work_[force].add(work);
     tally_.force_work[force] = force_work_[force].value();
+  }
+  /// Books work (J) of the forces between bodies.
+  void add_work(const CoupledForces::Shares& energy) {
+    const size_t forces = force_work_.size() - 2;
+    add_work(forces, energy.springs);
+    add_work(forces + 1, energy.gravitation);
   }
   void note_speed(Entity i, double speed) {  // m/s
     if (tally_.fastest.speed < speed) tally_.fastest = {speed, i};

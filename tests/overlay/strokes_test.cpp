@@ -241,6 +241,21 @@ TEST(Spring, BeginsAtItsAnchorAndEndsAtItsBody) {
   }
 }
 
+TEST(Spring, BetweenBodiesEndsAtBoth) {
+  const Scene scene = load_text(
+      "scene: 1\ncamera: {eye: [0, 0, 9], target: [0, 0, 0]}\n"
+      "balls: {a: {mass: 1, radius: 0.1, position: [0, 0, 0]}, b: {mass: 1, radius: 0.2, position: [1, 0, 0]}}\n"
+      "forces: [{spring: {from: a, to: b, stiffness: 1}}, {spring: {from: a, to: b, stiffness: 2}, visible: false}]\n"
+      "simulate: {duration: 1}\noutput: {frames: {fps: 1}}\n");
+  const History history(scene, picture_needs(scene));
+  State state = scene.initial;
+  state.position[1] = Vec3(0.5, 0.3, -0.4);
+  const vector<Stroke> strokes = DrawingMaker(scene, history, size).at(state, camera_of(scene)).strokes;
+  ASSERT_GT(strokes.size(), 20u);
+  EXPECT_EQ(strokes.front().from, state.position[0]);
+  EXPECT_EQ(strokes.back().to, state.position[1]);
+}
+
 TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
   const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
   const History history(scene, picture_needs(scene));

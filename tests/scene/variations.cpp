@@ -228,6 +228,15 @@ simulate: {duration: 1, engine: stepped, step: 0.1, integrator: verlet}
 )",
     R"(
 scene: 1
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}, blue: {mass: 1, radius: 0.1, position: [2, 1, 0]}}
+forces:
+  - {spring: {from: red, to: blue, stiffness: 1, rest_length: 1, damping: 1}, from: 0.5, until: 0.75, visible: false}
+  - {spring: {from: [0, 3, 0], to: blue, stiffness: 1, rest_length: 0}}
+  - {gravitation: {constant: 1, softening: 1}, on: [red, blue]}
+simulate: {duration: 1}
+)",
+    R"(
+scene: 1
 simulate: {duration: 1, tolerance: 0.1, engine: auto, contact: bounce}
 defaults: {plane: {color: tan}, wall: {color: tan}, group: {speed: 1}}
 planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}

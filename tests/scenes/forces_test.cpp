@@ -1,6 +1,7 @@
 // Scenes of drag, an attractor and a spring, against their comments.
 #include <gtest/gtest.h>
 
+#include "physics/energy.h"
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
@@ -43,6 +44,26 @@ TEST(Bumper, BouncesOnEveryHalfSwing) {
     EXPECT_NEAR(run.collisions[n].time, first + k * swing, 1e-10);  // measured: 4e-11
     EXPECT_NEAR(run.collisions[n].approach_speed, 5 * pow(0.8, k), 1e-10);
   }
+}
+
+TEST(Lattice, FallsOnTheFloorAndLosesNothing) {
+  const string file = "lattice";
+  const Played run = play(file);
+  EXPECT_EQ(choose_engine(run.scene).engine, Engine::exact);
+  EXPECT_EQ(run.scene.world.springs.size(), 252u);
+  ASSERT_FALSE(run.collisions.empty());
+  EXPECT_NEAR(run.collisions.front().time, stated(file, "at t = sqrt(1.16 / 9.80665) = "), 1e-9);
+  EXPECT_NEAR(kinetic_energy(run.scene.world, run.end) + potential_energy(run.scene.world, run.end), run.energy_start,
+              1e-9);
+}
+
+TEST(BinaryStars, KeepMomentumWhileTheyMerge) {
+  const Played run = play("binary_stars");
+  const World& world = run.scene.world;
+  EXPECT_GT(run.tally.merges, 50u);
+  EXPECT_LT((momentum(world, run.end) - momentum(world, run.scene.initial)).norm(), 1e-13);
+  const double energy = kinetic_energy(world, run.end) + potential_energy(world, run.end);
+  EXPECT_NEAR(energy + run.tally.energy_lost, run.energy_start, 1e-12);
 }
 
 }  // namespace

@@ -86,6 +86,24 @@ inline void scale(vector<Force>& forces, double l, double t, double kg) {
   }
 }
 
+/// The same for forces between bodies.
+inline void scale_couplings(World& world, double l, double t, double kg) {
+  for (BodySpring& spring : world.springs) {
+    spring.stiffness *= kg / (t * t);
+    spring.rest_length *= l;
+    spring.damping *= kg / t;
+    spring.from *= t;
+    spring.until *= t;
+  }
+
+  for (Gravitation& law : world.gravitations) {
+    law.constant *= l * l * l / (kg * t * t);
+    law.softening *= l;
+    law.from *= t;
+    law.until *= t;
+  }
+}
+
 /// A world, its state, and more numbers of its run.
 inline void scale(World& world, State& state, double& duration, double& rest_speed, const Units& units) {
   const double l = std::ldexp(1, units.length), t = std::ldexp(1, units.time), kg = std::ldexp(1, units.mass);
@@ -106,6 +124,7 @@ inline void scale(World& world, State& state, double& duration, double& rest_spe
     for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
 
   scale(world.forces, l, t, kg);
+  scale_couplings(world, l, t, kg);
   duration *= t;
   rest_speed *= l / t;
 }
@@ -205,7 +224,13 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   join(world.walls, one.world.walls, two.world.walls);
   join(world.strings, one.world.strings, two.world.strings);
 
+  join(world.springs, one.world.springs, two.world.springs);
+
   // The second one's bodies have other numbers.
+  for (size_t k = one.world.springs.size(); k < world.springs.size(); ++k) {
+    world.springs[k].a += one.world.body_count();
+    world.springs[k].b += one.world.body_count();
+  }
   for (size_t k = one.world.strings.size(); k < world.strings.size(); ++k) {
     String& s = world.strings[k];
     s.body += one.world.body_count();

@@ -46,7 +46,7 @@ bool CollapseDetector::count_impact(Entity a, Entity b, double e, double approac
 
   const double slow = bodies_.slow_speed(press, length);
   if (approach >= slow) return false;
-  if (in_lasting_contact(bodies_.mode(a)) || (body && in_lasting_contact(bodies_.mode(b)))) return true;
+  if (bodies_.in_contact(a) || (body && bodies_.in_contact(b))) return true;
   if (again) return false;
 
   // Alone on flat surfaces a body comes to rest on each of them in closed form. Only between several of them can it

@@ -13,12 +13,14 @@
 
 namespace carom {
 
-/// A path along which things that move do work, and contacts press.
+class EventLog;
+
+/// A path along which things that move, or forces between bodies, do work, and contacts press.
 class WorkingPath {
  public:
   virtual ~WorkingPath() = default;
-  /// The work (J) of the things that move in the first `seconds`.
-  virtual double work(double seconds) const = 0;
+  /// Books their work in the first `seconds`.
+  virtual void book(double seconds, EventLog& log) const = 0;
   /// The impulse of one contact along the path: `force` has its two things, and N s in place of N.
   using Take = function<void(const ContactForce& impulse)>;
   /// Calls take(impulse) for each contact, with the impulse between two times of the path (s).

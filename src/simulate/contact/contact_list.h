@@ -19,12 +19,8 @@ struct Contact {
   void keep(auto& archive) { archive(i, e, feature); }
 };
 
-/// By body: the first of the bodies that pairs connect with it.
-inline vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs) {
-  DisjointSets sets(bodies);
-  for (const ContactConstraint& pair : pairs)
-    if (pair.b != ContactConstraint::fixed) sets.join(pair.a, pair.b);
-
+/// By body: the first one of its set.
+inline vector<uint32_t> first_of_each(DisjointSets& sets, size_t bodies) {
   vector<uint32_t> part(bodies);
   vector<uint32_t> first(bodies, ContactConstraint::fixed);
   for (uint32_t k = 0; k < bodies; ++k) {
@@ -33,6 +29,14 @@ inline vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstra
     part[k] = of_part;
   }
   return part;
+}
+
+/// By body: the first of the bodies that pairs connect with it.
+inline vector<uint32_t> connected_parts(size_t bodies, span<const ContactConstraint> pairs) {
+  DisjointSets sets(bodies);
+  for (const ContactConstraint& pair : pairs)
+    if (pair.b != ContactConstraint::fixed) sets.join(pair.a, pair.b);
+  return first_of_each(sets, bodies);
 }
 
 struct ContactList {

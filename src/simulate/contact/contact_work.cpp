@@ -27,7 +27,7 @@ void ContactWork::end_paths(const vector<Entity>& members, const Instant& now) {
     if (!path_[i]) continue;
     Path& path = *path_[i];
     if (path.path) {
-      if (moves_) log_.add_carried_work(path.path->work(now - path.start));
+      path.path->book(now - path.start, log_);
       if (impulses.any()) impulses.add_path(path.start, now, *path.path);
     }
     path.path = nullptr;

@@ -1,7 +1,7 @@
 #pragma once
-// The work that fixed things which move do on bodies in lasting contact with them, contact force times velocity, and
-// the impulses of such forces. Both are booked as they accrue. Nothing is stored where nothing moves, and no impulse is
-// asked for.
+// The work that fixed things which move do on bodies in lasting contact with them, contact force times velocity, that of
+// forces between bodies along paths of islands, and the impulses of contact forces. All are booked as they accrue.
+// Nothing is stored where nothing moves, no forces are between bodies, and no impulse is asked for.
 
 #include "numerics/lazy_array.h"
 #include "physics/entity.h"
@@ -15,11 +15,10 @@ class EventLog;
 
 class ContactWork {
  public:
-  /// `moves`: whether things move. All arguments must outlive this object.
-  ContactWork(const World& world, bool moves, span<const WatchedImpulse> impulses, EventLog& log)
+  /// `works`: whether things move, or there are forces between bodies. All arguments must outlive this object.
+  ContactWork(const World& world, bool works, span<const WatchedImpulse> impulses, EventLog& log)
       : impulses(world, impulses),
-        moves_(moves),
-        any_(moves || this->impulses.any()),
+        any_(works || this->impulses.any()),
         power_(world.body_count()),
         path_(world.body_count()),
         log_(log) {}
@@ -64,7 +63,7 @@ class ContactWork {
     void keep(auto& archive) { archive(start); }
   };
 
-  const bool moves_, any_;
+  const bool any_;
   LazyArray<Power> power_;            // by body
   LazyArray<shared_ptr<Path>> path_;  // by body; null: none
   EventLog& log_;

@@ -18,7 +18,8 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
       ties(given),
       neighbours(world),
       islands(given.body_count()),
-      contact_work(world, moving.any(), options.impulses, log) {}
+      contact_work(world, moving.any() || couplings.any(), options.impulses, log),
+      touches_nothing(given.body_count()) {}
 
 ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
   const Flight p = flights[a];
@@ -46,6 +47,19 @@ ExactBodies::PairState ExactBodies::in_frame_of(Entity a, Entity b) const {
 
 bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
   return speed * speed < press * exact_tolerance::fading_hop * world.radius[i] && damps(world, i, now.hi);
+}
+
+CoupledForces ExactBodies::apply_couplings(span<const Entity> those, span<const Vec3> x, span<const Vec3> v) {
+  const auto number = [&](Entity i) { return uint32_t(ranges::lower_bound(those, i) - those.begin()); };
+  CoupledForces forces = couplings.among(those, now.hi, number);
+  if (!forces.any()) return forces;
+
+  vector<Vec3> a(those.size(), Vec3::Zero());
+  vector<double> inverse_mass;
+  for (const Entity i : those) inverse_mass.push_back(1 / world.mass[i]);
+  forces.accelerate(inverse_mass, x, v, a);
+  for (size_t k = 0; k < those.size(); ++k) applied.write(those[k]) += a[k];
+  return forces;
 }
 
 void ExactBodies::fail_squeezed(Entity i, vector<Entity> things) const {

@@ -28,10 +28,22 @@ struct ExactBodies : BodyPaths {
 
   void keep(auto& archive) {
     BodyPaths::keep(archive);
-    archive(ties, neighbours, islands);
+    archive(ties, neighbours, islands, touches_nothing);
   }
 
   static constexpr double immovable = never;  // kg
+
+  // By body: its island holds it by forces between bodies alone, and nothing touches it.
+  LazyArray<uint8_t> touches_nothing;
+  /// Whether body i is in lasting contact with a thing.
+  bool in_contact(Entity i) const { return in_lasting_contact(mode(i)) && touches_nothing[i] == 0; }
+  /// Adds the accelerations by forces between these bodies, which have all that they connect, to those of forces on
+  /// each of them (`applied`). They are in ascending order, at x (m) with velocities v (m/s). Returns these forces.
+  CoupledForces apply_couplings(span<const Entity> those, span<const Vec3> x, span<const Vec3> v);
+  /// Whether forces between bodies act on one of these now.
+  bool any_coupled(span<const Entity> those) const {
+    return couplings.any() && any_of(those, [&](Entity i) { return is_coupled(i); });
+  }
 
   /// Throws SimulationError: these things, of which one moves, leave body i no room.
   [[noreturn]] void fail_squeezed(Entity i, vector<Entity> things) const;

@@ -28,7 +28,9 @@ ExactGroup::ExactGroup(ExactBodies& bodies, ModeChanges& modes, FlatContacts& fl
 
 void ExactGroup::join(Entity i) {
   if (bodies_.mode(i) == Mode::asleep) wake(i);
-  if (!is_member(bodies_.mode(i))) enlist(i);
+  if (is_member(bodies_.mode(i))) return;
+  if (!bodies_.islands.any()) bodies_.log.count_collapse();
+  enlist(i);
 }
 
 /// Makes an island of body i, which is free or asleep.
@@ -42,8 +44,29 @@ void ExactGroup::enlist(Entity i) {
   IslandMember& kept = member.write(i);
   kept.needed = bodies_.now;
 
-  if (!islands.any()) bodies_.log.count_collapse();
   islands.create(i, bodies_.now);
+}
+
+vector<Entity> ExactGroup::coupled_with(Entity i) const {
+  vector<Entity> all;
+  if (!bodies_.is_coupled(i)) return all;
+  vector<uint8_t> known(bodies_.body.size(), 0);
+  const auto add = [&](Entity k) {
+    if (exchange(known[k], 1) == 0) all.push_back(k);
+  };
+  add(i);
+  for (size_t k = 0; k < all.size(); ++k) bodies_.couplings.for_each_link(all[k], bodies_.now.hi, add);
+  ranges::sort(all);
+  return all;
+}
+
+void ExactGroup::couple(span<const Entity> all) {
+  for (const Entity i : all) {
+    if (bodies_.mode(i) == Mode::asleep) wake(i);
+    if (!is_member(bodies_.mode(i))) enlist(i);
+    unite(all.front(), i);
+  }
+  bodies_.islands.of(all.front()).end = bodies_.now;
 }
 
 void ExactGroup::await_step(Entity i) {
@@ -68,11 +91,12 @@ void ExactGroup::unite(Entity a, Entity b) {
 }
 
 void ExactGroup::wake(Entity i) {
+  if (!bodies_.islands.any()) bodies_.log.count_collapse();
   bool crowd = false;
   vector<Entity> todo;
   const auto rouse = [&](Entity k) {
-    // Constrained motion rests on its partners.
-    crowd = crowd || modes_.partners(k).empty();
+    // Constrained motion rests on its partners, or on forces between bodies alone.
+    crowd = crowd || (modes_.partners(k).empty() && bodies_.touches_nothing[k] == 0);
     enlist(k);
     todo.push_back(k);
   };
@@ -92,6 +116,7 @@ void ExactGroup::wake(Entity i) {
 }
 
 /// The sleeping bodies that touch body i, and those at the other ends of its taut strings and of its rods, each once.
+/// Those that forces connect with it, too.
 vector<Entity> ExactGroup::asleep_beside(Entity i) const {
   const double near = max(exact_tolerance::waking_gap * bodies_.world.radius[i], member[i].gap);  // m
   const Vec3 x = bodies_.position(i);
@@ -106,6 +131,10 @@ vector<Entity> ExactGroup::asleep_beside(Entity i) const {
     if (other == no_entity || bodies_.mode(other) != Mode::asleep || ranges::count(asleep, other) > 0) continue;
     if (bodies_.world.string(string).rod || bodies_.string_now(string).gap <= near) asleep.push_back(other);
   }
+
+  bodies_.couplings.for_each_link(i, bodies_.now.hi, [&](Entity other) {
+    if (bodies_.mode(other) == Mode::asleep && ranges::count(asleep, other) == 0) asleep.push_back(other);
+  });
   return asleep;
 }
 

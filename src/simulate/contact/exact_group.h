@@ -67,6 +67,10 @@ class ExactGroup {
   /// The same for bodies that taut strings pull, and for those on rods. The tensions are those under the forces at the
   /// start: a taut string without tension holds nothing. Throws SimulationError where a string is too short.
   void join_by_strings();
+  /// All bodies that forces between bodies connect with body i now, and i. Empty: it is alone.
+  vector<Entity> coupled_with(Entity i) const;
+  /// Puts bodies that forces connect into one island. Its next step is due.
+  void couple(span<const Entity> all);
   /// Lets member i, whose impact has ended in contact, fall no more. The next step of its island is due.
   void await_step(Entity i);
   /// Notes an impact of body i, which a member needs for a while.

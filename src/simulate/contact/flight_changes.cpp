@@ -236,7 +236,7 @@ void FlightChanges::book_varying(Entity i, const Vec3& x, const Instant& end) {
   const double work = curved_.book_work(i, f, length);
   if (f.curve != nullptr) bodies_.log.note_speed(i, greatest_speed(i, f, length));
   if (f.curve != nullptr && in_contact_[i] != Contact::followed) return;
-  bodies_.log.deviate(kinetic_loss(i, f, length) + potential(bodies_.world, i, f.x) - potential(bodies_.world, i, x) +
+  bodies_.log.deviate(kinetic_loss(i, f, length) + bodies_.merged.potential(i, f.x) - bodies_.merged.potential(i, x) +
                       work);
 }
 

@@ -4,6 +4,7 @@
 
 #include "geometry/contact_time.h"
 #include "numerics/vec3.h"
+#include "physics/coupled_forces.h"
 #include "physics/world.h"
 #include "simulate/crowd/crowd_rows.h"
 #include "simulate/path/instant.h"
@@ -41,9 +42,12 @@ struct CrowdStep {
   double shell = 0;            // m, that contacts keep
   int waits = 0;               // steps to come in which missing gaps do not return
   int waited = 0;              // the last number of these
+  CoupledForces coupled;       // forces between members, which have the numbers of Crowd::by_name
+  double coupling_rate = 0;    // 1/s, at which they change
 
   void keep(auto& archive) {
     archive(start, end, length, last_length, open, valid, solved, kinetic, next_switch, speed, shell, waits, waited);
+    archive(coupled, coupling_rate);
   }
 };
 

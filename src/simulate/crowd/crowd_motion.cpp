@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "numerics/disjoint_sets.h"
+#include "numerics/gauss.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "simulate/contact/exact_group.h"
@@ -40,7 +41,13 @@ bool CrowdMotion::advance(Entity i) {
     }
 
     Crowd& crowd = gather(island);
-    if (Instant{crowd.step.next_switch, 0} <= bodies_.now || bodies_.varying) renew_forces(crowd);
+    if (Instant{crowd.step.next_switch, 0} <= bodies_.now || bodies_.varying || bodies_.couplings.any())
+      renew_forces(crowd);
+    // Nothing touches bodies that forces alone hold together.
+    if (crowd.step.coupled.any() && all_of(crowd.idle, [](uint8_t steps) { return steps >= tol::idle_steps; })) {
+      island.busy = false;
+      continue;
+    }
     crowd.step.length = longest_step(crowd);
     if (take_guests(i)) continue;
     if (!crowd.list.listed && (let_go(crowd) || list(crowd))) {
@@ -109,7 +116,7 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
   double gain = crowd.sum([&](size_t k) {
     return 0.5 * world.mass[crowd.members[k]] * crowd.velocity(k, age).squaredNorm() - work_on(crowd, k, since);
   });
-  gain -= crowd.step.kinetic;
+  gain -= crowd.step.kinetic + book_couplings(crowd, since);
   const ptrdiff_t pressed = ranges::count(crowd.pressed, 1);
   bodies_.log.add_stepped_contact(since * double(pressed));
 
@@ -136,6 +143,35 @@ void CrowdMotion::book(Crowd& crowd, double since, bool full) const {
   for (size_t k = 0; full && k < lent.size(); ++k) lent[k] = steps_.lent(crowd, k, age);
   steps_.take(crowd, -gain, crowd.sum([&](size_t k) { return lent[k] - crowd.lent[k]; }));
   crowd.lent = std::move(lent);
+}
+
+/// Books the work of forces between members in `since` (s) of the present step. Returns it, with what their potential
+/// loses (J).
+double CrowdMotion::book_couplings(const Crowd& crowd, double since) const {
+  if (!crowd.step.coupled.any()) return 0;
+  vector<Vec3> x;
+  vector<Vec3> v;
+  const auto place = [&](double t) {
+    x.clear();
+    for (const uint32_t k : crowd.by_name) x.push_back(crowd.position(k) + t * crowd.drift(k));
+  };
+  for (const uint32_t k : crowd.by_name) v.push_back(crowd.drift(k));
+
+  place(0);
+  double energy = crowd.step.coupled.potential(x).sum();
+  place(since);
+  energy -= crowd.step.coupled.potential(x).sum();
+  if (!crowd.step.coupled.works()) return energy;
+
+  CoupledForces::Shares work;
+  for (const GaussPoint& point : gauss_4) {
+    place(point.at * since);
+    const CoupledForces::Shares power = crowd.step.coupled.power(x, v);
+    work.springs += point.weight * since * power.springs;
+    work.gravitation += point.weight * since * power.gravitation;
+  }
+  bodies_.log.add_work(work);
+  return energy + work.sum();
 }
 
 /// The work of forces on member k in `since` (s) of its drift, and what it loses of potential energy (J).
@@ -245,6 +281,7 @@ void CrowdMotion::add_member(Crowd& crowd, size_t k, bool comes) {
   crowd.v[k] = four_of(v, 1 / bodies_.world.mass[i]);
   if (!comes) return;
   modes_.clear_partners(i);
+  if (bodies_.touches_nothing[i] != 0) bodies_.touches_nothing.write(i) = 0;
   modes_.step(i);
   bodies_.contact_work.change(i, bodies_.now, 0);
   if (!group_.pressing[i].empty()) group_.pressing.write(i).clear();
@@ -253,17 +290,39 @@ void CrowdMotion::add_member(Crowd& crowd, size_t k, bool comes) {
 
 /// Finds the forces on all members, the greatest of them, and when they change.
 void CrowdMotion::renew_forces(Crowd& crowd) const {
-  const World& world = bodies_.world;
   crowd.load = 0;
   crowd.step.next_switch = bodies_.moving.any() ? bodies_.moving.next_switch(bodies_.now.floor()) : never;
   for (size_t k = 0; k < crowd.members.size(); ++k) {
     const Entity i = crowd.members[k];
-    if (!world.forces.empty()) {
+    if (bodies_.forced) {
       bodies_.apply_forces(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]));
-      crowd.step.next_switch = min(crowd.step.next_switch, bodies_.merged.next_switch(i, bodies_.now.floor()));
+      crowd.step.next_switch = min(crowd.step.next_switch, bodies_.next_switch(i, bodies_.now.floor()));
     }
-    crowd.load = max(crowd.load, bodies_.applied[i].norm());
   }
+
+  if (bodies_.couplings.any()) couple(crowd);
+  for (const Entity i : crowd.members) crowd.load = max(crowd.load, bodies_.applied[i].norm());
+}
+
+/// Adds the forces between members, and finds how fast they change.
+void CrowdMotion::couple(Crowd& crowd) const {
+  vector<Entity> members;
+  vector<Vec3> x;
+  vector<Vec3> v;
+  vector<double> inverse_mass;
+  for (const uint32_t k : crowd.by_name) {
+    members.push_back(crowd.members[k]);
+    x.push_back(crowd.position(k));
+    v.push_back(crowd.velocity(k, crowd.lag[k]));
+    inverse_mass.push_back(1 / bodies_.world.mass[crowd.members[k]]);
+  }
+
+  crowd.step.coupled = bodies_.apply_couplings(members, x, v);
+  crowd.step.coupling_rate = 0;
+  if (!crowd.step.coupled.any()) return;
+  const vector<double> exact(x.size(), 0);
+  for (const CoupledForces::Scale& of : crowd.step.coupled.scales(inverse_mass, x, v, exact))
+    crowd.step.coupling_rate = max(crowd.step.coupling_rate, of.rate);
 }
 
 /// The longest step that speeds and forces allow (s).
@@ -277,6 +336,7 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
         const double rate = force_rate(bodies_.world, i, crowd.position(k), crowd.drift(k));
         if (rate > 0) length = min(length, quality_.longest_step / rate);
       }
+  if (crowd.step.coupling_rate > 0) length = min(length, quality_.longest_step / crowd.step.coupling_rate);
   length = min(length, tol::step_growth * crowd.step.last_length);
   return min(length, Instant{crowd.step.next_switch, 0} - bodies_.now);
 }
@@ -383,7 +443,7 @@ bool CrowdMotion::let_go(Crowd& crowd) {
   vector<Entity> stay;
   for (const uint32_t k : crowd.by_name) {
     const Entity i = crowd.members[k];
-    if (crowd.idle[k] < tol::idle_steps || is_near(k)) {
+    if (crowd.idle[k] < tol::idle_steps || bodies_.is_coupled(i) || is_near(k)) {
       stay.push_back(i);
       continue;
     }
@@ -413,8 +473,12 @@ bool CrowdMotion::split(Crowd& crowd) {
     if (row.b[lane] < crowd.movable()) sets.join(row.a[lane], row.b[lane]);
   });
 
-  // Parts with contacts, each by its first member. All others stay with the first of them.
+  // Forces connect members, too.
+  crowd.step.coupled.for_each_link([&](uint32_t a, uint32_t b) { sets.join(crowd.by_name[a], crowd.by_name[b]); });
+
+  // Parts with contacts or such forces, each by its first member. All others stay with the first of them.
   vector<uint8_t> presses(n, 0);
+  crowd.step.coupled.for_each_link([&](uint32_t a, uint32_t) { presses[sets.root(crowd.by_name[a])] = 1; });
   for (uint32_t k = 0; k < n; ++k)
     if (crowd.pressed[k] != 0) presses[sets.root(k)] = 1;
   vector<uint32_t> first(n, ContactConstraint::fixed);

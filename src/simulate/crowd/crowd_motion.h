@@ -40,6 +40,8 @@ class CrowdMotion {
   // What was before the step.
   void close(Crowd& crowd, const Instant& at) const;
   void book(Crowd& crowd, double since, bool full) const;
+  double book_couplings(const Crowd& crowd, double since) const;
+  void couple(Crowd& crowd) const;
   double work_on(const Crowd& crowd, size_t k, double since) const;
   void free_flights(Crowd& crowd) const;
 

@@ -169,6 +169,11 @@ bool CrowdSleep::falls_asleep(Crowd& crowd) {
   vector<uint8_t> rests(crowd.members.size(), 1);
   if (!quality_.rests_by_speed) rests = slow_members(crowd);
   if (quality_.rests_by_speed ? !has_settled(crowd) : none_of(rests, std::identity())) return false;
+  // Those that forces connect rest together.
+  if (crowd.step.coupled.any()) {
+    if (!all_of(rests, std::identity())) return false;
+    apply_at_rest(crowd);
+  }
 
   Holding holding = touching(crowd, rests);
   if (!quality_.rests_by_speed && !solve_rest(crowd, holding)) {
@@ -180,6 +185,19 @@ bool CrowdSleep::falls_asleep(Crowd& crowd) {
   if (wake_beneath(holding)) return false;
   put_to_rest(crowd, holding);
   return true;
+}
+
+/// Sets the forces on members to those at rest, without dampers. The next step sets them anew.
+void CrowdSleep::apply_at_rest(const Crowd& crowd) {
+  vector<Entity> members;
+  vector<Vec3> x;
+  for (const uint32_t k : crowd.by_name) {
+    const Entity i = crowd.members[k];
+    members.push_back(i);
+    x.push_back(crowd.position(k));
+    bodies_.apply_forces(i, x.back(), Vec3::Zero());
+  }
+  bodies_.apply_couplings(members, x, vector<Vec3>(x.size(), Vec3::Zero()));
 }
 
 /// Lets them sleep. Other members take the step without them.

@@ -40,6 +40,7 @@ class CrowdSleep {
   Holding touching(const Crowd& crowd, span<const uint8_t> rests) const;
   bool solve_rest(const Crowd& crowd, Holding& holding);
   bool hold_by_sweeps(const Crowd& crowd, Holding& holding, const ContactProblem& problem);
+  void apply_at_rest(const Crowd& crowd);
   void put_to_rest(Crowd& crowd, const Holding& holding);
   bool wake_beneath(const Holding& holding);
 

@@ -43,6 +43,17 @@ void BodyMerging::merge(Entity a, Entity b, const Touch& there) {
   }
 
   flights_.note_changed(whole);
+  go_on(whole);
+}
+
+/// Lets the joint body fly on: with those that forces connect with it, or under forces that bend its path.
+void BodyMerging::go_on(Entity whole) {
+  if (const vector<Entity> all = group_.coupled_with(whole); !all.empty()) {
+    group_.couple(all);
+    for (const Entity i : all) flights_.note_changed(i);
+  } else if (bodies_.flies_in_steps(whole)) {
+    flights_.let_fall(whole);
+  }
 }
 
 /// Books the flight of body i, which ends. A body in lasting contact leaves its island, which takes a step at once.
@@ -88,13 +99,15 @@ double BodyMerging::join(Entity whole, Entity part) {
   const Vec3 x = xw + share * (xp - xw);
   const Vec3 v = vw + share * (vp - vw);
 
-  const double before = bodies_.merged.potential(whole, xw) + bodies_.merged.potential(part, xp);  // J
+  double lost = potential({whole, part});  // J
   bodies_.merged.join(whole, part);
+  bodies_.couplings.join(whole, part);
 
   // What acts on the whole is the mean, by mass, of what acts on the parts.
   if (!bodies_.world.forces.empty()) {
     const auto mean = [&]<typename T>(const LazyArray<T>& of) { return T(of[whole] + share * (of[part] - of[whole])); };
     bodies_.apply(whole, {mean(bodies_.applied), mean(bodies_.fade)});
+    if (bodies_.varying) bodies_.apply_forces(whole, x, v);
   }
 
   // Both leave their flat surfaces, and contacts do no more work on them.
@@ -110,11 +123,19 @@ double BodyMerging::join(Entity whole, Entity part) {
   flights_.note_changed(part);
   bodies_.flights.set(part, {bodies_.now, x, Vec3::Zero(), Vec3::Zero()});
 
-  const double lost = bodies_.world.forces.empty() ? 0 : before - bodies_.merged.potential(whole, x);
   bodies_.flights.set(whole, {bodies_.now, x, v, bodies_.force_at(whole, x, v), bodies_.fade[whole]});
+  lost = bodies_.forced ? lost - potential({whole}) : 0;
   flights_.count(whole);
   bodies_.body[whole].set_origin({});
   return lost;
+}
+
+/// The potential energy of these bodies, with each other and with all others (J).
+double BodyMerging::potential(std::initializer_list<Entity> those) const {
+  const auto position = [&](Entity i) { return bodies_.position(i); };
+  double sum = bodies_.couplings.potential(span(those.begin(), those.size()), position);
+  for (const Entity i : those) sum += bodies_.merged.potential(i, position(i));
+  return sum;
 }
 
 /// Moves a joint body out of fixed things that its volume overlaps. The work of lifting it goes into the log.
@@ -129,12 +150,13 @@ void BodyMerging::move_out(Entity whole) {
       if (!(there.gap < 0)) continue;
 
       const Vec3 out = there.gap * there.normal;
-      bodies_.log.add_work(bodies_.merged.potential(whole, f.x + out) - bodies_.merged.potential(whole, f.x));
+      const double before = potential({whole});
       f.x += out;
+      bodies_.flights.set(whole, f);
+      bodies_.log.add_work(potential({whole}) - before);
       free = false;
     }
 
-    bodies_.flights.set(whole, f);
     if (free) break;
   }
 }

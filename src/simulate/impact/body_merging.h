@@ -4,7 +4,10 @@
 // if both have the same mass. Where the joint volume overlaps a third body, that one merges too. Where it overlaps a
 // fixed thing, it is moved out.
 
+#include <initializer_list>
+
 #include "physics/entity.h"
+
 namespace carom {
 
 struct Collision;
@@ -30,6 +33,8 @@ class BodyMerging {
   void end_flight(Entity i);
   Collision meeting(Entity a, Entity b, const Touch& there) const;
   double join(Entity whole, Entity part);
+  double potential(std::initializer_list<Entity> those) const;
+  void go_on(Entity whole);
   void move_out(Entity whole);
 
   ExactBodies& bodies_;

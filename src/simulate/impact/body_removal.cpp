@@ -27,7 +27,10 @@ vector<Entity> BodyRemoval::remove(Entity i) {
   modes_.remove(i);
 
   // It takes its energy and momentum out of the world.
-  bodies_.log.remove(0.5 * mass * v.squaredNorm() + bodies_.merged.potential(i, x), mass * v);
+  const auto position = [&](Entity k) { return k == i ? x : bodies_.position(k); };
+  const double coupled = bodies_.couplings.potential(span(&i, 1), position);  // J
+  bodies_.log.remove(0.5 * mass * v.squaredNorm() + bodies_.merged.potential(i, x) + coupled, mass * v);
+  bodies_.couplings.remove(i);
   bodies_.merged.remove(i);
   bodies_.ties.untie(i);
   bodies_.neighbours.remove(i);

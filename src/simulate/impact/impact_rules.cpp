@@ -17,7 +17,7 @@ namespace carom {
 bool ImpactRules::too_slow_to_wake(const PairImpact& impact, Entity striker, Entity struck) const {
   const World& world = bodies_.world;
   if (impact.press > 0) return false;
-  if (flat_.of(striker).count == 0 || !bodies_.ties.of(struck).empty()) return false;
+  if (flat_.of(striker).count == 0 || !bodies_.ties.of(struck).empty() || bodies_.is_coupled(struck)) return false;
   const double lifts = 2 * exact_tolerance::waking_lift * bodies_.applied[struck].norm() * world.radius[struck];
   if (!(impact.approach * impact.approach < lifts)) return false;
 
@@ -105,8 +105,8 @@ double ImpactRules::pressed(Entity i, Entity e) const {
 /// Whether the approach of two bodies (m/s) is an error of their paths: those of islands, which follow constraints to
 /// rounding.
 bool ImpactRules::move_as_one(Entity a, Entity b, double approach) const {
-  return bodies_.mode(a) == Mode::held && bodies_.mode(b) == Mode::held &&
-         approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
+  return bodies_.mode(a) == Mode::held && bodies_.mode(b) == Mode::held && bodies_.in_contact(a) &&
+         bodies_.in_contact(b) && approach <= bodies_.drift_of(a, bodies_.velocity(a), bodies_.velocity(b));
 }
 
 void ImpactRules::book(const Collision& met, bool ends, double press, double length) const {
@@ -198,7 +198,7 @@ bool ImpactRules::ends(const FixedImpact& impact, bool again) {
   if (collapses_.count_impact(i, surface, e, approach, held, bodies_.world.radius[i], alone, again)) return true;
   const double separation = e * approach;
   if (!(press > 0)) return false;
-  if (flat && bodies_.bent[i] && !in_lasting_contact(bodies_.mode(i)) && e < 1)
+  if (flat && (bodies_.bent[i] || bodies_.is_coupled(i)) && !bodies_.in_contact(i) && e < 1)
     return over_at_once(impact, 2 * separation / (press * (1 - e)));
   if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
   return (!flat || in_lasting_contact(bodies_.mode(i))) && (separation == 0 || bodies_.too_low(x, separation, press));

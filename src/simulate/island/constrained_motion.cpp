@@ -48,15 +48,17 @@ bool ConstrainedMotion::count_change(Island& island, double load, double smalles
 bool ConstrainedMotion::advance(Entity i) {
   const bool undisturbed = bodies_.mode(i) == Mode::held && bodies_.now == bodies_.islands.of(i).planned;
   const bool may_be_busy = !undisturbed && !bodies_.options.merge && !bodies_.any_taut(bodies_.islands.of(i).members);
-  if (!undisturbed) take_in_touching(i);
+  if (!undisturbed && !bodies_.options.merge) take_in_touching(i);
 
   Island& island = bodies_.islands.of(i);
   ranges::sort(island.members);
   vector<uint32_t> part;
   {
     IslandStep step = begin_step(island.members, undisturbed);
-    if (may_be_busy && !count_change(island, step.load, step.smallest)) return false;
-    part = connected_parts(step.members.size(), step.contacts.pairs);
+    // Impacts alone end steps of bodies that forces connect, too.
+    const bool changes = !step.couplings.any() || !step.contacts.pairs.empty();
+    if (may_be_busy && changes && !count_change(island, step.load, step.smallest)) return false;
+    part = step.parts();
     if (all_of(part, [](uint32_t first) { return first == 0; })) {
       apply(step);
       return true;
@@ -124,9 +126,12 @@ IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool und
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.smallest = min(step.smallest, bodies_.world.radius[i]);
-    bodies_.refresh(i, x, v);
+    // A crowd's forces on it may be those of others, too.
+    bodies_.couplings.any() ? bodies_.apply_forces(i, x, v) : bodies_.refresh(i, x, v);
   }
 
+  step.couplings = bodies_.couplings.among(members, bodies_.now.hi, [&](Entity i) { return step.members.number(i); });
+  step.applied = step.applied_at(bodies_, step.v);
   search_.find(step);
   return step;
 }
@@ -169,7 +174,9 @@ void ConstrainedMotion::note_contacts(const IslandStep& step) {
     modes_.clear_partners(i);
     group_.pressing.write(i).clear();
     group_.member.write(i).floors.clear();
+    if (bodies_.touches_nothing[i] != 0) bodies_.touches_nothing.write(i) = 0;
   }
+  if (step.couplings.any()) note_untouched(step);
 
   for (size_t c = 0; c < step.contacts.names.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
@@ -185,6 +192,16 @@ void ConstrainedMotion::note_contacts(const IslandStep& step) {
   if (!bodies_.contact_work.any()) return;
   for (const Entity i : step.members)
     step.path ? bodies_.contact_work.change(i, bodies_.now, 0) : group_.note_forces(i);
+}
+
+/// Stores which members forces between bodies alone hold in the step's island.
+void ConstrainedMotion::note_untouched(const IslandStep& step) {
+  vector<uint8_t> touched(step.members.size(), 0);
+  for (const ContactConstraint& pair : step.contacts.pairs)
+    for (const uint32_t k : {pair.a, pair.b})
+      if (k != ContactConstraint::fixed) touched[k] = 1;
+  for (uint32_t k = 0; k < touched.size(); ++k)
+    if (touched[k] == 0) bodies_.touches_nothing.write(step.members[k]) = 1;
 }
 
 /// Starts the members' flights until the step's end.
@@ -220,6 +237,7 @@ bool ConstrainedMotion::begin_flight(const IslandStep& step, uint32_t k) {
 
   // A member that nothing has needed for long enough leaves the island.
   if (fate.leaves() && bodies_.now - group_.member[i].needed >= step.grace) {
+    if (bodies_.touches_nothing[i] != 0) bodies_.touches_nothing.write(i) = 0;
     modes_.leave(i);
     for (size_t c = 0; c < fate.flats.count; ++c) flat_.add(i, fate.flats.at[c]);
     flights_.begin(i, x + fate.down, flat_.keep_at(i, v), {});
@@ -255,9 +273,10 @@ void ConstrainedMotion::report(const Island& island, double time, vector<Contact
     const Flight f = bodies_.flights[i];
     step.x.push_back(f.position(step.at - f.start));
     step.v.push_back(f.velocity(step.at - f.start));
-    step.a.push_back(bodies_.force_at(i, step.x.back(), step.v.back()));
     step.inverse_mass.push_back(1 / world.mass[i]);
   }
+  step.couplings = bodies_.couplings.among(island.members, time, [&](Entity i) { return step.members.number(i); });
+  step.a = step.applied_at(bodies_, step.v);
 
   // Each contact once, from its first body.
   vector<ContactConstraint> pairs;

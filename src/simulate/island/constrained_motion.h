@@ -57,6 +57,7 @@ class ConstrainedMotion {
   void apply(IslandStep& step);
   void book(const IslandStep& step);
   void note_contacts(const IslandStep& step);
+  void note_untouched(const IslandStep& step);
   void begin_flights(const IslandStep& step);
   bool begin_flight(const IslandStep& step, uint32_t k);
 

@@ -187,9 +187,14 @@ void ConstrainedSteps::drop_parting(IslandStep& step) const {
 /// The equations of motion of a step's members and contacts.
 ConstrainedSystem ConstrainedSteps::make_system(const IslandStep& step) const {
   vector<ConstrainedSystem::Applied> applied;
-  for (const Entity i : step.members) applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
+  for (const Entity i : step.members) {
+    applied.push_back({bodies_.applied[i], bodies_.fade[i], bodies_.bent[i] != 0});
+    if (bodies_.bent[i]) applied.back().parts = bodies_.merged.shares_of(i);
+  }
   ConstrainedSystem system(bodies_.world, bodies_.now.hi, step.members.bodies(), std::move(applied),
                            share_of_errors() * tol::step_error);
+
+  system.couple(step.couplings);
 
   for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
     const auto& [i, e, feature] = step.contacts.names[c];
@@ -343,7 +348,7 @@ void ConstrainedSteps::fail_jammed(Entity i, double force) const {
 void ConstrainedSteps::find_resting(IslandStep& step) const {
   const size_t n = step.x.size();
   const vector<ContactConstraint>& pairs = step.contacts.pairs;
-  const vector<uint32_t> part = connected_parts(n, pairs);
+  const vector<uint32_t> part = step.parts();
   vector<uint8_t> moves(n, 1);  // by part
   for (const ContactConstraint& p : pairs) moves[part[p.a]] = 0;
 
@@ -351,13 +356,14 @@ void ConstrainedSteps::find_resting(IslandStep& step) const {
   for (size_t c = 0; c < pairs.size(); ++c)
     if (bodies_.moving.moves(step.contacts.names[c].e, bodies_.now)) moves[part[pairs[c].a]] = 1;
 
+  // What drag alone balances goes on.
+  const vector<Vec3> moving = step.applied_at(bodies_, step.v);
+  const vector<Vec3> at_rest = step.applied_at(bodies_, vector<Vec3>(n, Vec3::Zero()));
   step.fastest = 0;
   for (size_t k = 0; k < n; ++k) {
     const double speed = step.v[k].norm();
     step.fastest = max(step.fastest, speed);
-    // What drag alone balances goes on.
-    const Entity i = step.members[k];
-    const Vec3 drag = bodies_.force_at(i, step.x[k], step.v[k]) - bodies_.force_at(i, step.x[k], Vec3::Zero());
+    const Vec3 drag = moving[k] - at_rest[k];
     if (!(speed <= tol::drift * sqrt(step.load * step.smallest) &&
           (step.a[k] - drag).norm() <= tol::constrained_balance * step.load))
       moves[part[k]] = 1;
@@ -392,7 +398,8 @@ void ConstrainedSteps::note_unbalanced(IslandStep& step) const {
   }
 }
 
-/// Finds what presses on each member: flat surfaces alone, on which it can rest by itself, or other things.
+/// Finds what presses on each member, and what binds it: flat surfaces alone, on which it can rest by itself, or other
+/// things.
 void ConstrainedSteps::find_pressed(IslandStep& step) const {
   const World& world = bodies_.world;
   for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
@@ -418,6 +425,9 @@ void ConstrainedSteps::find_pressed(IslandStep& step) const {
     fate.down += gap * p.normal;
     fate.flats.at[fate.flats.count++] = {e, feature, -p.normal, false, bodies_.now, 0};
   }
+
+  // Forces between members hold them together.
+  step.couplings.for_each_link([&](uint32_t a, uint32_t b) { step.fates[a].bound = step.fates[b].bound = true; });
 }
 
 /// The longest step (s). It ends when a body may leave the island, otherwise beyond the run's end.
@@ -434,7 +444,7 @@ double ConstrainedSteps::longest(IslandStep& step) const {
       const double since = bodies_.now - group_.member[step.members[k]].needed;
       h = min(h, max(step.grace - since, 0.25 * step.grace));
     }
-  return h;
+  return step.couplings.any() ? min(h, bodies_.options.step) : h;
 }
 
 /// Takes parabolas, for as long as they are the paths, or a step of the method.
@@ -445,7 +455,8 @@ void ConstrainedSteps::choose_motion(IslandStep& step, ConstrainedSystem& system
   const double straight = all_rest ? step.length : system.straight_time(step.x, step.v, step.a);
 
   if (!(straight >= min(step.length, time))) {
-    if (step.undisturbed)
+    // Forces between members change within a moment, too, and do work.
+    if (step.undisturbed || step.couplings.any())
       follow(step, system, next_length);
     else
       step.length = min(step.length, tol::moment * time);

@@ -4,13 +4,18 @@
 // unique. Rims are found at samples of the dense output.
 #include "simulate/island/constrained_system.h"
 
+#include <fmt/format.h>
+
 #include "numerics/cube_root.h"
+#include "numerics/disjoint_sets.h"
 #include "numerics/dormand_prince.h"
 #include "numerics/gauss.h"
 #include "numerics/radau_collocation.h"
 #include "physics/closed_motion.h"
 #include "physics/force.h"
 #include "physics/world.h"
+#include "simulate/path/instant.h"
+#include "simulate/simulation_error.h"
 #include "simulate/tolerances.h"
 #include "std.h"
 
@@ -68,6 +73,16 @@ double first_time(const DenseMotion& motion, double from, double to, Happens hap
     (happens(x) ? to : from) = t;
   }
   return to;
+}
+
+/// The acceleration (m/s^2) of a body, or of one that parts with these shares of its mass make up.
+Vec3 bent_acceleration(const World& world, Entity i, const vector<pair<Entity, double>>& parts, double time,
+                       const Vec3& x, const Vec3& v) {
+  if (parts.empty()) return free_acceleration(world, i, time, x, v);
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [part, share] : parts)
+    sum += share * free_acceleration(world, part, time, {x, v, share * world.mass[i]});
+  return sum;
 }
 
 double greatest_norm(const vector<Vec3>& v) {
@@ -139,17 +154,19 @@ vector<Vec3> ConstrainedSystem::forces_at(const vector<Vec3>& x, const vector<Ve
       continue;
     }
 
-    const auto& [at_rest, fade, bent] = applied_[k];
+    const auto& [at_rest, fade, bent, parts] = applied_[k];
     if (bent)
-      a.push_back(free_acceleration(world_, members_[k], time_, x[k], v[k]));
+      a.push_back(bent_acceleration(world_, members_[k], parts, time_, x[k], v[k]));
     else
       a.push_back(fade == 0 ? at_rest : Vec3(at_rest - fade * v[k]));
   }
+
+  if (couplings_.any()) couplings_.accelerate(inverse_mass_, x, v, a);
   return a;
 }
 
 bool ConstrainedSystem::any_bent() const {
-  return any_of(applied_, [](const Applied& of) { return of.bent; });
+  return couplings_.any() || any_of(applied_, [](const Applied& of) { return of.bent; });
 }
 
 double ConstrainedSystem::common_fade() const {
@@ -231,7 +248,43 @@ double ConstrainedSystem::relative_speed(const vector<Vec3>& v) const {
   take(opened_, opened_rows_);
   for (size_t k = 0; k < members_.size(); ++k)
     if (applied_[k].bent || applied_[k].fade > 0) fastest = max(fastest, v[k].norm());
+
+  if (couplings_.any()) {
+    const Vec3 common = common_velocity(v);
+    for (size_t k = 0; k < members_.size(); ++k) fastest = max(fastest, (v[k] - common).norm());
+  }
   return fastest;
+}
+
+/// The velocity of the members' centre of mass (m/s).
+Vec3 ConstrainedSystem::common_velocity(const vector<Vec3>& v) const {
+  Vec3 sum = Vec3::Zero();
+  double mass = 0;
+  for (size_t k = 0; k < members_.size(); ++k) {
+    sum += v[k] / inverse_mass_[k];
+    mass += 1 / inverse_mass_[k];
+  }
+  return sum / mass;
+}
+
+/// By member: the greatest speed (m/s) among those that springs and contacts connect with it, relative to the centre of
+/// mass. What attracts it from afar has a speed of its own.
+vector<double> ConstrainedSystem::own_speeds(const vector<Vec3>& v) const {
+  DisjointSets sets(members_.size());
+  couplings_.for_each_spring([&](uint32_t a, uint32_t b) { sets.join(a, b); });
+  for (const auto* rows : {&rows_, &opened_rows_})
+    for (const ContactConstraint& row : *rows)
+      if (row.b != ContactConstraint::fixed) sets.join(row.a, row.b);
+
+  const Vec3 common = common_velocity(v);
+  vector<double> of_set(members_.size(), 0);
+  for (uint32_t k = 0; k < members_.size(); ++k) {
+    double& fastest = of_set[sets.root(k)];
+    fastest = max(fastest, (v[k] - common).norm());
+  }
+  vector<double> speeds;
+  for (uint32_t k = 0; k < members_.size(); ++k) speeds.push_back(of_set[sets.root(k)]);
+  return speeds;
 }
 
 ConstrainedSystem::Scales ConstrainedSystem::scales(const vector<Vec3>& x, const vector<Vec3>& v) const {
@@ -248,6 +301,11 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const vector<Vec3>& x, const
   double strongest = s.acceleration;
   for (size_t k = 0; k < v.size(); ++k)
     if (applied_[k].fade > 0) strongest = max({strongest, applied_[k].at_rest.norm(), applied_[k].fade * v[k].norm()});
+  if (couplings_.any() && !rows_.empty()) {
+    const vector<double> none(members_.size(), 0);
+    for (const CoupledForces::Scale& of : couplings_.scales(inverse_mass_, x, v, none))
+      strongest = max(strongest, of.strongest);
+  }
   s.opening = strongest * max(tol::opening, tol::contact_rounding * farthest / s.length);
   return s;
 }
@@ -379,7 +437,41 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
 
   const double place = *ranges::max_element(roundings);
   const double speed = step_error_ * left * max(fastest, gained);
-  return {max(step_error_ * left * width, place), max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
+  Allowed allowed{max(step_error_ * left * width, place),
+                  max({speed, rounded, rounding_ * greatest_norm(v), 0x1p-900})};
+  if (couplings_.any()) allow_each(x, v, a, allowed);
+  return allowed;
+}
+
+/// The errors that forces between members allow each of them: shares of its own motion, as far as rounding allows.
+void ConstrainedSystem::allow_each(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a,
+                                   Allowed& allowed) const {
+  const vector<double> roundings = place_roundings(x, v, a);
+  const vector<CoupledForces::Scale> scales = couplings_.scales(inverse_mass_, x, v, roundings);
+  const vector<double> speeds = own_speeds(v);
+  for (size_t k = 0; k < members_.size(); ++k) {
+    const Entity i = members_[k];
+    double width = min(world_.radius[i], scales[k].reach);  // m, in which forces change
+    double left = scales[k].left;
+    if (applied_[k].bent) {
+      width = min(width, force_reach(world_, i, x[k]));
+      left = min(left, left_of_speed(world_, i, time_, x[k], v[k]));
+    }
+
+    // The speed that it reaches, from rest, before its acceleration changes.
+    const double pull = a[k].norm();
+    double gained = sqrt(pull * width);
+    if (scales[k].rate > 0) gained = min(gained, pull / scales[k].rate);
+
+    // Sums of a step have the rounding of a few terms.
+    const double rounded = max(scales[k].rounded, 4 * rounding_ * v[k].norm());
+    allowed.places.push_back(max(step_error_ * left * width, roundings[k]));
+    allowed.speeds.push_back(max({step_error_ * left * max(speeds[k], gained), rounded, 0x1p-900}));
+  }
+
+  // Things that carry members have no error.
+  allowed.places.resize(members_.size() + carriers_.size(), allowed.place);
+  allowed.speeds.resize(members_.size() + carriers_.size(), allowed.speed);
 }
 
 /// The longest step (s) in which no member comes to more than half of its way to an attractor.
@@ -390,7 +482,7 @@ double ConstrainedSystem::within_reach(const vector<Vec3>& x, const vector<Vec3>
     const double time = step_within(force_reach(world_, members_[k], x[k]), v[k].norm(), a[k].norm());
     if (time > 0) longest = min(longest, time);
   }
-  return longest;
+  return couplings_.any() ? min(longest, couplings_.longest_step(x, v, a)) : longest;
 }
 
 ConstrainedSystem::Followed ConstrainedSystem::follow(const vector<Vec3>& x, const vector<Vec3>& v,
@@ -432,20 +524,31 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const vector<Vec3>&
 
   const double rounded = rounding_ * greatest_norm(v);  // m/s
   const auto step = [&](double length) {
-    return motion->step(length, smooth, max(allowed_.place, length * rounded), allowed_.speed);
+    if (allowed_.places.empty())
+      return motion->step(length, smooth, max(allowed_.place, length * rounded), allowed_.speed);
+    vector<double> places = allowed_.places;
+    for (size_t k = 0; k < v.size(); ++k) places[k] = max(places[k], length * rounding_ * v[k].norm());
+    return motion->step(length, smooth, places, allowed_.speeds);
   };
 
   // Shorter steps follow until the error is allowed.
   bool rejected = false;
   for (;;) {
+    check_clock(h);
     const double error = step(h);
     followed.next = DormandPrince::next_length(h, error);
-    if (error <= 1) break;
+    if (error <= 1) {
+      motion->interpolate(smooth);
+      if (!couplings_.any()) break;
+      // The path between is as right as its end.
+      const double between = error_between(*motion, smooth);
+      followed.next = min(followed.next, DormandPrince::next_length(h, between));
+      if (between <= 1) break;
+    }
     rejected = true;
     h = followed.next;
   }
 
-  motion->interpolate(smooth);
   followed.stuck = rejected && greatest_norm(v) > 0 && !moves(*motion);
   // The step ends at the first change in it.
   const double change = first_change(*motion);
@@ -457,6 +560,34 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const vector<Vec3>&
 
   followed.motion = std::move(motion);
   return followed;
+}
+
+/// The error of velocities within a step, as a share of the allowed one: from the defect, the path's acceleration less
+/// that by the forces there. Both vanish at a step's ends. An error like s^2 (1 - s)^2 is 1/3 of its slope at a
+/// quarter.
+double ConstrainedSystem::error_between(const DenseMotion& motion, const DormandPrince::Acceleration& forces) const {
+  const double h = motion.length();
+  double greatest = 0;
+  vector<Vec3> x;
+  vector<Vec3> v;
+
+  for (const double s : {0.25, 0.75}) {
+    motion.at(s * h, x, v);
+    const vector<Vec3> a = forces(x, v);
+    for (size_t k = 0; k < members_.size(); ++k) {
+      const double defect = (motion.path(k).acceleration(s * h) - a[k]).cwiseAbs().maxCoeff();
+      greatest = max(greatest, defect * h / 3 / allowed_.speeds[k]);
+    }
+  }
+  return greatest;
+}
+
+/// Throws SimulationError if forces between members ask for a step (s) that does not move the clock.
+void ConstrainedSystem::check_clock(double length) const {
+  if (!couplings_.any() || Instant{time_, 0} < Instant{time_, 0} + length) return;
+  throw SimulationError(fmt::format("at t = {} s the forces between bodies on ", time_), members_.front(),
+                        " or others change faster than the clock resolves: soften `gravitation`, or weaken a stiff "
+                        "`spring`");
 }
 
 /// Follows the motion by collocation. No motion: drag does not decay within its steps.
@@ -566,6 +697,25 @@ void ConstrainedSystem::add_impulses(const DenseMotion& motion, double from, dou
 
   for (size_t c = 0; c < closed_.size(); ++c)
     if (!left_[held_[c].a]) take({closed_[c].i, closed_[c].e, sums[c]});
+}
+
+ConstrainedSystem::Exchanged ConstrainedSystem::exchanged(const DenseMotion& motion, double length) const {
+  Exchanged all;
+  vector<Vec3> x;
+  vector<Vec3> v;
+  motion.at(0, x, v);
+  all.released = couplings_.potential(x).sum();
+  motion.at(length, x, v);
+  all.released -= couplings_.potential(x).sum();
+
+  if (!couplings_.works()) return all;
+  for (const GaussPoint& point : gauss_10) {
+    motion.at(point.at * length, x, v);
+    const CoupledForces::Shares power = couplings_.power(x, v);
+    all.work.springs += point.weight * length * power.springs;
+    all.work.gravitation += point.weight * length * power.gravitation;
+  }
+  return all;
 }
 
 double ConstrainedSystem::greatest_fade() const {

@@ -10,6 +10,8 @@
 #include "geometry/touch.h"
 #include "numerics/dense_motion.h"
 #include "simulate/contact/contact_impulses.h"
+#include "numerics/dormand_prince.h"
+#include "physics/coupled_forces.h"
 #include "simulate/contact/contact_list.h"
 #include "solver/contact_problem.h"
 #include "std.h"
@@ -23,8 +25,10 @@ class ConstrainedSystem {
     Vec3 at_rest;
     double fade;
     bool bent;  // the forces have no closed form
+    // Of a joint body whose forces are bent: its parts, and their shares of its mass.
+    vector<pair<Entity, double>> parts{};
 
-    void keep(auto& archive) { archive(at_rest, fade, bent); }
+    void keep(auto& archive) { archive(at_rest, fade, bent, parts); }
   };
   /// members: bodies, ascending. applied: by member, from `time` (s) on. `world` must outlive this object. step_error:
   /// of a step, and of parabolas on curved surfaces, as a share of the least radius and of speeds.
@@ -41,8 +45,10 @@ class ConstrainedSystem {
   /// Registers a fixed thing that moves, at its position (m) and velocity (m/s) at the start, before contacts with it
   /// are added.
   void add_moving(Entity e, const Vec3& x, const Vec3& v);
-  /// Whether such things do work on the members.
-  bool works() const { return !carriers_.empty(); }
+  /// Sets the forces between members, which have those numbers.
+  void couple(CoupledForces forces) { couplings_ = std::move(forces); }
+  /// Whether such things, or such forces, do work on the members.
+  bool works() const { return !carriers_.empty() || couplings_.any(); }
   /// Leaves member number k out of that work, because it does not take part in the motion.
   void leave_out(size_t k) { left_[k] = 1; }
   /// Their work (J) in the first `length` (s) of a motion that was followed. Forces change as they did then.
@@ -50,6 +56,14 @@ class ConstrainedSystem {
   /// Calls take(impulse) for each contact of members that are not left out, with its impulse between two times (s) of
   /// such a motion. Of a rod it is that of the force's magnitude.
   void add_impulses(const DenseMotion& motion, double from, double to, const WorkingPath::Take& take) const;
+  /// The work (J) in that time of the forces between members without a potential, and what their potential loses (J).
+  struct Exchanged {
+    CoupledForces::Shares work;
+    double released = 0;
+  };
+  Exchanged exchanged(const DenseMotion& motion, double length) const;
+  bool has_carriers() const { return !carriers_.empty(); }
+  bool is_coupled() const { return couplings_.any(); }
   /// Opens the closed contacts that are marked in `which`. From then on they are watched, and not followed.
   void open_contacts(const vector<uint8_t>& which);
 
@@ -91,7 +105,9 @@ class ConstrainedSystem {
   const vector<ContactConstraint>& rows() const { return rows_; }  // of closed contacts
   const Certificate& certificate() const { return certificate_; }
 
-  void keep(auto& archive) { archive(time_, members_, applied_, inverse_mass_, carriers_, left_, closed_, held_); }
+  void keep(auto& archive) {
+    archive(time_, members_, applied_, inverse_mass_, couplings_, carriers_, left_, closed_, held_);
+  }
 
  private:
   /// A fixed thing that moves. In a motion that is followed it is one more point, after the members.
@@ -107,6 +123,9 @@ class ConstrainedSystem {
   struct Allowed {
     double place;  // m
     double speed;  // m/s
+    // By point, where forces act between members. One that is far away or fast then leaves the others their digits.
+    vector<double> places{};
+    vector<double> speeds{};
   };
 
   const Carrier* carrier_of(Entity e) const;
@@ -122,12 +141,17 @@ class ConstrainedSystem {
   double reaction(const ContactConstraint& row) const;
   double turning_time(double load, double bend, double w, double a, double rounding) const;
   Allowed allowed_errors(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
+  void allow_each(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a, Allowed& allowed) const;
+  vector<double> own_speeds(const vector<Vec3>& v) const;
+  Vec3 common_velocity(const vector<Vec3>& v) const;
   double within_reach(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const;
   vector<Vec3> forces_at(const vector<Vec3>& x, const vector<Vec3>& v) const;
   bool any_bent() const;
   bool add_integrals(const DenseMotion& motion, double from, double to, vector<double>& sums) const;
   Vec3 place_of(const vector<Vec3>& x, uint32_t b, Entity e) const;
   Followed follow_smooth(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a, double h);
+  double error_between(const DenseMotion& motion, const DormandPrince::Acceleration& forces) const;
+  void check_clock(double length) const;
   Followed follow_stiff(const vector<Vec3>& x, const vector<Vec3>& v, double h);
   double greatest_fade() const;
   void allow_contradictions(const vector<Vec3>& a, vector<ContactConstraint>& rows) const;
@@ -150,6 +174,7 @@ class ConstrainedSystem {
   vector<Entity> members_;
   vector<Applied> applied_;
   vector<double> inverse_mass_;  // 1/kg
+  CoupledForces couplings_;
   vector<Carrier> carriers_;
   vector<uint8_t> left_;  // by member: whether it is left out of their work
   vector<Contact> closed_;

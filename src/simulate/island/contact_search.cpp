@@ -27,6 +27,8 @@ void ContactSearch::find_touching(IslandStep& step) const {
     for (const Entity e : bodies_.neighbours_of(i)) {
       const bool body = world.is_body(e);
       if (body && (e < i || step.members.number(e) == Numbering::none)) continue;
+      // Bodies that merge where they meet have no contact.
+      if (body && bodies_.options.merge) continue;
 
       // A thing that it has just struck touches it at that feature, and at no other.
       const bool struck = bodies_.flights[i].start == bodies_.now && bodies_.body[i].origin_partner == e;
@@ -66,10 +68,9 @@ void ContactSearch::find_strings(IslandStep& step, uint32_t k) const {
 double ContactSearch::load_of(const IslandStep& step) const {
   const bool held =
       any_of(step.contacts.pairs, [](const ContactConstraint& p) { return p.b == ContactConstraint::fixed; });
-  const auto pull = [&](size_t k) { return bodies_.force_at(step.members[k], step.x[k], step.v[k]); };
-  const Vec3 common = held ? Vec3(Vec3::Zero()) : pull(0);
+  const Vec3 common = held ? Vec3(Vec3::Zero()) : step.applied[0];
   double greatest = 0;
-  for (size_t k = 0; k < step.members.size(); ++k) greatest = max(greatest, (pull(k) - common).norm());
+  for (const Vec3& pull : step.applied) greatest = max(greatest, (pull - common).norm());
   return greatest;
 }
 

@@ -35,15 +35,22 @@ struct IslandPath {
   }
 };
 
-/// The work of moving things and the impulses of contacts along such a path.
+/// The work of moving things and of forces between members, and the impulses of contacts, along such a path.
 class IslandWork final : public WorkingPath {
  public:
   IslandWork() = default;  // to be restored
   IslandWork(shared_ptr<const IslandPath> path, shared_ptr<const ConstrainedSystem> forces)
       : path_(std::move(path)), forces_(std::move(forces)) {}
 
-  double work(double seconds) const override {
-    return forces_->works() ? forces_->work(*path_->motion, min(seconds, path_->motion->length())) : 0;
+  void book(double seconds, EventLog& log) const override {
+    const double length = min(seconds, path_->motion->length());
+    if (forces_->has_carriers()) log.add_carried_work(forces_->work(*path_->motion, length));
+    if (!forces_->is_coupled()) return;
+
+    // The energy of contact changes by what these forces do besides.
+    const auto [work, released] = forces_->exchanged(*path_->motion, length);
+    log.add_work(work);
+    log.deviate(released + work.sum());
   }
   void impulses(double from, double to, const Take& take) const override {
     const double length = path_->motion->length();
@@ -90,6 +97,8 @@ struct IslandStep {
   vector<Vec3> v;
   vector<Vec3> a;
   vector<double> inverse_mass;
+  vector<Vec3> applied;     // m/s^2, by forces without contact
+  CoupledForces couplings;  // forces between members
   double load = 0;          // m/s^2, the greatest acceleration with which members may press on anything
   double smallest = never;  // m, the least radius
   double fastest = 0;       // m/s
@@ -122,6 +131,22 @@ struct IslandStep {
     vector<ContactForce> stopped;
     vector<Unbalanced> unbalanced;
   } bookings;
+
+  /// The accelerations of the members (m/s^2) by forces, without contact, at these velocities (m/s).
+  vector<Vec3> applied_at(const ExactBodies& bodies, const vector<Vec3>& velocities) const {
+    vector<Vec3> all;
+    for (size_t k = 0; k < x.size(); ++k) all.push_back(bodies.force_at(members[k], x[k], velocities[k]));
+    if (couplings.any()) couplings.accelerate(inverse_mass, x, velocities, all);
+    return all;
+  }
+  /// By member: the first of those that contacts and forces connect with it.
+  vector<uint32_t> parts() const {
+    DisjointSets sets(x.size());
+    for (const ContactConstraint& pair : contacts.pairs)
+      if (pair.b != ContactConstraint::fixed) sets.join(pair.a, pair.b);
+    couplings.for_each_link([&](uint32_t a, uint32_t b) { sets.join(a, b); });
+    return first_of_each(sets, x.size());
+  }
 
   /// The position (m), velocity (m/s) and acceleration (m/s^2) of a thing: a member, a string to a member or to its
   /// anchor, or a fixed thing.

@@ -24,7 +24,7 @@ EventPredictor::EventPredictor(ExactBodies& bodies, EventQueue& queue, const Mod
       flat_(flat),
       group_(group),
       times_(bodies),
-      plain_(!bodies.ties.any() && bodies.world.forces.empty() && !bodies.moving.any()) {}
+      plain_(!bodies.ties.any() && !bodies.forced && !bodies.moving.any()) {}
 
 void EventPredictor::predict(Entity i) {
   if (bodies_.mode(i) == Mode::stepped) [[unlikely]]
@@ -98,13 +98,10 @@ void EventPredictor::predict_among(Entity i, span<const Entity> bodies) {
 /// Offers what neither a contact nor a region is: strings, and switches of forces and of things that move.
 void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
   if (bodies_.ties.any()) offer_strings(i, best);
-  if (!bodies_.world.forces.empty())
+  if (bodies_.forced)
     offer(i, best,
-          ExactEvent{{bodies_.merged.next_switch(i, bodies_.now.floor()), 0},
-                     no_entity,
-                     0,
-                     no_feature,
-                     ExactEvent::Kind::force});
+          ExactEvent{
+              {bodies_.next_switch(i, bodies_.now.floor()), 0}, no_entity, 0, no_feature, ExactEvent::Kind::force});
   if (bodies_.moving.any())
     offer(i, best,
           ExactEvent{

@@ -103,6 +103,12 @@ void ExactSimulator::start(const State& initial) {
     if (bodies_.ties.any()) group_.join_by_strings();
   }
 
+  // Forces between bodies.
+  vector<uint8_t> coupled(bodies_.couplings.any() ? n : 0, 0);
+  for (Entity i = 0; i < coupled.size(); ++i)
+    if (coupled[i] == 0)
+      for (const Entity k : couple(i)) coupled[k] = 1;
+
   for (Entity i = 0; i < n; ++i)
     if (bodies_.flies_in_steps(i) && bodies_.mode(i) == Mode::flying) flights_.let_fall(i);
 
@@ -176,8 +182,6 @@ void ExactSimulator::advance_to(double time) {
 
   // At the run's end, the last flights and the work along paths are booked.
   if (time_ < bodies_.options.duration) return;
-  const double end = is_over() ? tally().end->time : time_;
-  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {end, 0}); });
   book_last(time_);
 }
 
@@ -291,8 +295,7 @@ bool ExactSimulator::may_be_simultaneous(Entity i, const ExactEvent& event) {
 /// Otherwise the body flies on, and may meet such things elsewhere.
 void ExactSimulator::take_switch(Entity i) {
   if (bodies_.moving.any()) {
-    const bool forced = !bodies_.world.forces.empty() &&
-                        bodies_.merged.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
+    const bool forced = bodies_.forced && bodies_.next_switch(i, std::nextafter(bodies_.now.hi, -1)) == bodies_.now.hi;
     if (!forced && !flat_.switches(i) && !group_.switches(i)) return flights_.note_changed(i);
   }
   flights_.end_step(i);
@@ -313,6 +316,22 @@ void ExactSimulator::switch_forces(Entity i) {
   bodies_.apply_forces(i, x, v);
   if (bodies_.bent[i]) flat_.clear(i);
   flights_.begin(i, x, flat_.keep_at(i, v), {});
+  if (bodies_.couplings.any()) couple(i);
+}
+
+/// Puts body i, and all bodies that forces connect with it now, into one island, unless they are in one. Returns them.
+vector<Entity> ExactSimulator::couple(Entity i) {
+  vector<Entity> all = group_.coupled_with(i);
+  const auto is_there = [&](Entity k) {
+    return is_member(bodies_.mode(k)) && is_member(bodies_.mode(i)) && bodies_.islands.same(i, k);
+  };
+  if (all_of(all, is_there)) return all;
+
+  for (const Entity k : all)
+    if (!is_member(bodies_.mode(k))) flights_.end_step(k);
+  group_.couple(all);
+  for (const Entity k : all) flights_.note_changed(k);
+  return all;
 }
 
 /// Body i slides over the rim of the face that carries it: onto a level face, or off. In the second case the rim's edge
@@ -456,6 +475,7 @@ void ExactSimulator::end_run(double time, EndReason reason, uint32_t region) {
 
 /// Books all that goes on at `time` (s), the run's end.
 void ExactSimulator::book_last(double time) {
+  bodies_.islands.for_each([&](const Island& island) { bodies_.contact_work.end_paths(island.members, {time, 0}); });
   if (!flights_.has_ended()) islands_.book_last(time);
   flights_.book_last(time);
 }
@@ -466,7 +486,7 @@ bool ExactSimulator::rests(Entity i) const {
   const double past = bodies_.now.floor();
   const double end = bodies_.options.duration;
 
-  if (!bodies_.world.forces.empty() && bodies_.merged.next_switch(i, past) < end) return false;
+  if (bodies_.forced && bodies_.next_switch(i, past) < end) return false;
   if (bodies_.moving.any()) {
     const ExactEvent& event = bodies_.body[i].event;
     if (bodies_.moving.next_switch(past) < end || (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end))

@@ -68,6 +68,7 @@ class ExactSimulator final : public Simulator {
   [[gnu::noinline]] bool may_be_simultaneous(Entity i, const ExactEvent& event);
   void take_switch(Entity i);
   void switch_forces(Entity i);
+  vector<Entity> couple(Entity i);
   void slide_off(Entity i, Entity surface, uint8_t edge);
   void end_flight(Entity i);
   bool watches() const;

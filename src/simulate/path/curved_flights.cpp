@@ -43,8 +43,8 @@ double CurvedFlights::first_length(Entity i, const Vec3& x, const Vec3& v) const
 }
 
 PolynomialPath CurvedFlights::step_of_its_own(Entity i, const Vec3& x, const Vec3& v) {
-  const optional<ClosedForces> closed =
-      bodies_.options.closed_forms ? closed_forces(bodies_.world, i, bodies_.now.hi) : nullopt;
+  const bool may_close = bodies_.options.closed_forms && bodies_.merged.parts_of(i).empty();
+  const optional<ClosedForces> closed = may_close ? closed_forces(bodies_.world, i, bodies_.now.hi) : nullopt;
   return closed ? closed_step(i, *closed, x, v) : numerical_step(i, x, v);
 }
 
@@ -151,12 +151,12 @@ PolynomialPath CurvedFlights::numerical_step(Entity i, const Vec3& x, const Vec3
   const double now = bodies_.now.hi;
   const double radius = world.radius[i];
   const double share = bodies_.options.step_error;
-  const Vec3 whole = free_acceleration(world, i, now, x, v);
+  const Vec3 whole = bodies_.merged.acceleration(i, now, x, v);
   const SpringsInLine springs(world, i, now, x, v, whole);
 
   // The accelerations and slopes that the two methods evaluate.
   const auto acceleration = [&](const Vec3& at, const Vec3& speed) {
-    const Vec3 there = free_acceleration(world, i, now, at, speed);
+    const Vec3 there = bodies_.merged.acceleration(i, now, at, speed);
     return springs.any() ? springs.without_turn(at, there) : there;
   };
   const auto accelerations = [&](const vector<Vec3>& at, const vector<Vec3>& speed) {
@@ -277,19 +277,20 @@ double CurvedFlights::squared_speed(const Flight& flight, double length) {
 
 double CurvedFlights::book_work(Entity i, const Flight& flight, double length) {
   const World& world = bodies_.world;
+  const bool joint = !bodies_.merged.parts_of(i).empty();
   double all = 0;
   for (size_t k = 0; k < world.forces.size(); ++k) {
     const Force& force = world.forces[k];
-    if (!acts(force, i, flight.start.hi)) continue;
+    const double start = flight.start.hi;
+    if (!joint && !acts(force, i, start)) continue;
 
     // The mean power for each unit of mass. It is a velocity to the second or third power, which may fall by decades
     // within a step.
     double sum = 0;
     for (const GaussPoint& node : gauss_10) {
       const double t = node.at * length;
-      const Vec3 x = flight.position(t);
       const Vec3 v = flight.velocity(t);
-      sum += node.weight * working_acceleration(world, force, i, x, v).dot(v);
+      sum += node.weight * bodies_.merged.working_acceleration(force, i, start, flight.position(t), v).dot(v);
     }
 
     const double work = world.mass[i] * length * sum;

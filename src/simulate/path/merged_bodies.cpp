@@ -39,6 +39,34 @@ AppliedAcceleration MergedBodies::applied(Entity i, double time) const {
   return sum;
 }
 
+bool MergedBodies::bends(Entity i, double time) const {
+  if (parts_.empty() || parts_[i].empty()) return carom::bends(world(), i, time);
+  return any_of(parts_[i], [&](Entity part) { return carom::bends(given_, part, time); });
+}
+
+Vec3 MergedBodies::acceleration(Entity i, double time, const Vec3& x, const Vec3& v) const {
+  if (parts_.empty() || parts_[i].empty()) return free_acceleration(world(), i, time, x, v);
+  Vec3 sum = Vec3::Zero();
+  for (const Entity part : parts_[i]) sum += share_[part] * free_acceleration(given_, part, time, x, v);
+  return sum;
+}
+
+Vec3 MergedBodies::working_acceleration(const Force& force, Entity i, double time, const Vec3& x, const Vec3& v) const {
+  const auto on = [&](const World& world, Entity body) {
+    return acts(force, body, time) ? carom::working_acceleration(world, force, body, x, v) : Vec3(Vec3::Zero());
+  };
+  if (parts_.empty() || parts_[i].empty()) return on(world(), i);
+  Vec3 sum = Vec3::Zero();
+  for (const Entity part : parts_[i]) sum += share_[part] * on(given_, part);
+  return sum;
+}
+
+vector<pair<Entity, double>> MergedBodies::shares_of(Entity i) const {
+  vector<pair<Entity, double>> shares;
+  for (const Entity part : parts_of(i)) shares.emplace_back(part, share_[part]);
+  return shares;
+}
+
 double MergedBodies::next_switch(Entity i, double time) const {
   if (parts_.empty() || parts_[i].empty()) return carom::next_switch(world(), i, time);
   double next = never;

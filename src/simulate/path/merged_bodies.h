@@ -31,6 +31,14 @@ class MergedBodies {
   }
   /// The accelerations of body i by the forces at `time` (s).
   AppliedAcceleration applied(Entity i, double time) const;
+  /// Whether forces that bend paths act on body i at `time` (s), and the acceleration by all forces then, at x (m) and
+  /// v (m/s), in m/s^2.
+  bool bends(Entity i, double time) const;
+  Vec3 acceleration(Entity i, double time, const Vec3& x, const Vec3& v) const;
+  /// The part of one force's acceleration of body i at `time` (s) that does work, because it has no potential (m/s^2).
+  Vec3 working_acceleration(const Force& force, Entity i, double time, const Vec3& x, const Vec3& v) const;
+  /// A part of body i and its share of the mass. None: body i is not joint.
+  vector<pair<Entity, double>> shares_of(Entity i) const;
   /// The first time (s) after `time` at which a force on body i starts or ends.
   double next_switch(Entity i, double time) const;
   /// The potential energy of body i at x (m), in J.

@@ -24,6 +24,7 @@
 //     carried            -> settling   FlatContacts::add: it bounces on one more surface
 //     settling, carried  -> flying     FlatContacts::keep_at, keep_pressing, remove, clear: it is off all surfaces
 //     any of these       -> fresh      ExactGroup::join: lasting contact with anything but flat surfaces
+//     any of these       -> fresh      ExactGroup::couple: a force between bodies sets in
 //     fresh              -> held,      ExactGroup::unite: its island becomes one with an island in that mode
 //                           stepped
 //     held               -> stepped    ExactGroup::unite: its island becomes one with a crowd

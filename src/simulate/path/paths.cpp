@@ -11,9 +11,11 @@ namespace carom {
 BodyPaths::BodyPaths(const World& given, const ExactOptions& given_options)
     : options(given_options),
       merged(given, options.merge),
+      couplings(given),
       world(merged.world()),
       moving(given),
       bounds(bounds_of(given)),
+      forced(!given.forces.empty() || couplings.any()),
       varying(bending_force(given) != nullptr),
       by_method(options.integrator != Integrator::dop853 || !options.closed_forms),
       in_steps(varying || by_method),
@@ -24,7 +26,7 @@ BodyPaths::BodyPaths(const World& given, const ExactOptions& given_options)
       flights(given.body_count(), given.gravity),
       kick(given.body_count()),
       body(given.body_count()),
-      log(options.max_collisions, options.record_collisions, given.forces.size()) {}
+      log(options.max_collisions, options.record_collisions, given.forces.size(), couplings.any()) {}
 
 Vec3 BodyPaths::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;
@@ -39,10 +41,10 @@ void BodyPaths::apply(Entity i, const AppliedAcceleration& forces) {
 }
 
 void BodyPaths::apply_forces(Entity i, const Vec3& x, const Vec3& v) {
-  const bool bend = varying && bends(world, i, now.hi);
+  const bool bend = varying && merged.bends(i, now.hi);
   if (bend != (bent[i] != 0)) bent.write(i) = bend;
   if (!bend) return apply(i, merged.applied(i, now.hi));
-  apply(i, {free_acceleration(world, i, now.hi, x, v), 0});
+  apply(i, {merged.acceleration(i, now.hi, x, v), 0});
 }
 
 /// Euler's method has another velocity than its path.
@@ -73,7 +75,7 @@ bool BodyPaths::method_bends(Entity i) const {
 }
 
 Vec3 BodyPaths::bent_force_at(Entity i, const Vec3& x, const Vec3& v) const {
-  return free_acceleration(world, i, now.hi, x, v);
+  return merged.acceleration(i, now.hi, x, v);
 }
 
 }  // namespace carom

@@ -9,6 +9,7 @@
 #include "physics/bounds.h"
 #include "simulate/event_log.h"
 #include "simulate/exact.h"
+#include "simulate/path/couplings.h"
 #include "simulate/path/exact_event.h"
 #include "simulate/path/flight.h"
 #include "simulate/path/merged_bodies.h"
@@ -25,9 +26,11 @@ struct BodyPaths {
 
   const ExactOptions options;
   MergedBodies merged;
+  Couplings couplings;
   const World& world;  // with the joint bodies' masses and volumes
   const MovingThings moving;
   const Bounds bounds;
+  const bool forced;   // there are forces beside gravity, or between bodies
   const bool varying;  // some force bends paths (force.h)
   // The integrator gives all paths that bend, also those with a closed form.
   const bool by_method;
@@ -46,7 +49,7 @@ struct BodyPaths {
   EventLog log;
 
   void keep(auto& archive) {
-    archive(merged, now, applied, fade, bent, flights, kick);
+    archive(merged, couplings, now, applied, fade, bent, flights, kick);
     archive.sized(body);
     archive(log);
   }
@@ -75,6 +78,12 @@ struct BodyPaths {
   void apply(Entity i, const AppliedAcceleration& forces);
   /// Sets them to those that act at present, on body i at x (m) and v (m/s).
   void apply_forces(Entity i, const Vec3& x, const Vec3& v);
+  /// The first time (s) after `time` at which a force on body i starts or ends.
+  double next_switch(Entity i, double time) const {
+    return min(merged.next_switch(i, time), couplings.next_switch(i, time));
+  }
+  /// Whether forces between bodies act on body i now.
+  bool is_coupled(Entity i) const { return couplings.any() && couplings.act_on(i, now.hi); }
   /// Whether body i's flights, when free, are steps of a method.
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
   /// Whether body i's present flight is a curve of its own. A path of constrained motion is not.
