@@ -150,11 +150,13 @@ FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, uint8_t feature) c
 
   return {i,        surface,    feature, flat,  f.start == bodies_.now,
           x,        v,          u,       there, pair_restitution(world, i, surface),
-          approach, pull - bend};
+          approach, pull - bend - n.dot(bodies_.fixed_acceleration(surface, bodies_.now))};
 }
 
 bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
+  // The body's path on the surface is not a parabola.
+  if (bodies_.world.swing(surface) != nullptr) return false;
   const double separation = e * approach;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
   const size_t carrying = flat_.of(i).count;
@@ -170,7 +172,7 @@ bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact)
     return true;
   }
 
-  // The body's path on the surface is not a parabola.
+  // Nor is it where forces bend it.
   if (bodies_.bent[i]) return false;
   const bool ends = e < 1 || approach == 0 ||
                     (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
@@ -192,13 +194,14 @@ bool ImpactRules::over_at_once(const FixedImpact& impact, double left) const {
 
 bool ImpactRules::ends(const FixedImpact& impact, bool again) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
-  if (approach == 0 && bodies_.path_bends(i)) return true;
+  const bool bends = bodies_.bent[i] || bodies_.world.swing(surface) != nullptr;
+  if (approach == 0 && (bodies_.path_bends(i) || bodies_.world.swing(surface) != nullptr)) return true;
   const bool alone = flat && !collapses_.among_bodies(i);
   const double held = holding(press, i, surface);
   if (collapses_.count_impact(i, surface, e, approach, held, bodies_.world.radius[i], alone, again)) return true;
   const double separation = e * approach;
   if (!(press > 0)) return false;
-  if (flat && bodies_.bent[i] && !in_lasting_contact(bodies_.mode(i)) && e < 1)
+  if (flat && bends && !in_lasting_contact(bodies_.mode(i)) && e < 1)
     return over_at_once(impact, 2 * separation / (press * (1 - e)));
   if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
   return (!flat || in_lasting_contact(bodies_.mode(i))) && (separation == 0 || bodies_.too_low(x, separation, press));
@@ -207,7 +210,6 @@ bool ImpactRules::ends(const FixedImpact& impact, bool again) {
 void ImpactRules::check_room(const FixedImpact& impact) const {
   const World& world = bodies_.world;
   const Vec3& n = impact.there.normal;
-  const double until = min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
   const Entity i = impact.body;
 
   for (const Entity e : bodies_.neighbours_of(i)) {
@@ -220,9 +222,17 @@ void ImpactRules::check_room(const FixedImpact& impact) const {
     const double closing = n.dot(u - impact.u);
     if (opposite.gap > exact_tolerance::least_gap * world.radius[i] || !(closing > 0)) continue;
 
+    // Faces that slow down in time leave room.
+    const double slowing = -n.dot(bodies_.fixed_acceleration(e, bodies_.now) -
+                                  bodies_.fixed_acceleration(impact.surface, bodies_.now));
+    if (closing * closing < 2 * slowing * opposite.gap) continue;
+
     // The room ends before the run, a change of motion and the rim of the surface.
     const double left = opposite.gap / closing;
-    if (bodies_.now.hi + left > until) continue;
+    const Instant until = min({bodies_.moving.next_switch(e, bodies_.now),
+                               bodies_.moving.next_switch(impact.surface, bodies_.now),
+                               Instant{bodies_.options.duration, 0}});
+    if (until < bodies_.now + left) continue;
     const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
     if (leave_feature(world, i, e, opposite.feature, along, left).time < never) continue;
     bodies_.fail_squeezed(i, {impact.surface, e});
