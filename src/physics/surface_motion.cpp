@@ -219,28 +219,17 @@ Vec3 acceleration_on(const SurfaceMotion& motion, const DoubleDouble& time) {
   return -(rate * rate) * (sine * motion.swing->sine + cosine * motion.swing->cosine);
 }
 
-/// Taylor's series about the middle of the time, shifted to its start: half the length makes the rest 2^-9 of that of
-/// a series about the start.
+/// Through velocity, acceleration and jerk at the start and the end, and the first two in the middle. A body that leaves
+/// the thing at the start may be slow, so that the velocity is exact there.
 PolynomialPath::Terms displacement_on(const Swing& swing, const DoubleDouble& time, double length) {
-  const auto [sine, cosine] = turned(swing, time + DoubleDouble{0.5 * length, 0});
-  // Of (t - length / 2) / length.
-  const double angle = turning_rate(swing) * length;
-  const Vec3 out = sine * swing.sine + cosine * swing.cosine;
-  const Vec3 on = cosine * swing.sine - sine * swing.cosine;
-  PolynomialPath::Terms about_middle;
-  double power = 1;
-  for (size_t n = 1; n <= PolynomialPath::terms; ++n) {
-    power *= angle;
-    const Vec3& derivative = n % 2 == 1 ? on : out;
-    about_middle[n - 1] = ((n / 2) % 2 == 1 ? -1 : 1) * (power * inverse_factorial[n]) * derivative;
-  }
-  PolynomialPath::Terms terms = PolynomialPath::shifted(about_middle, -0.5, 1);
-
-  // At the start, velocity and acceleration are exact: a body that leaves the thing there may be slow.
-  const SinCos start = turned(swing, time);
-  terms[0] = angle * (start.cos * swing.sine - start.sin * swing.cosine);
-  terms[1] = -(0.5 * angle * angle) * (start.sin * swing.sine + start.cos * swing.cosine);
-  return terms;
+  const double rate = turning_rate(swing);
+  const auto at = [&](double since) {
+    const auto [sine, cosine] = turned(swing, time + DoubleDouble{since, 0});
+    const Vec3 velocity = rate * (cosine * swing.sine - sine * swing.cosine);
+    const Vec3 acceleration = -(rate * rate) * (sine * swing.sine + cosine * swing.cosine);
+    return PolynomialPath::Point{velocity, acceleration, -(rate * rate) * velocity};
+  };
+  return PolynomialPath::through(length, at(0), at(0.5 * length), at(length)).displacement;
 }
 
 double turning_rate(const Swing& swing) {

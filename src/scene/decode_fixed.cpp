@@ -109,6 +109,7 @@ SurfaceMotion in_windows(const View& motion, double every, Diagnostics& diagnost
 /// The motion on a circle from a place (m) on.
 SurfaceMotion on_circle(const View& motion, const CircleKeys& keys, const Vec3& place, Diagnostics& diagnostics) {
   const auto [center, axis, period] = keys;
+  if (motion.part("circle").vector("axis").value_or(Vec3::Zero()).isZero(0)) return {};
   SurfaceMotion circle = motion_on_circle(place, center, unit(axis), period);
   // What is left beside the axis by rounding is no circle.
   const double rounding = 0x1p-50 * (place.cwiseAbs().sum() + center.cwiseAbs().sum());

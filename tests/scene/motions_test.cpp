@@ -123,23 +123,33 @@ TEST(Motions, HaveEntriesInPathsWithAndWithoutTheirKey) {
 TEST(MotionErrors, OfWhatRepeatsSwingsOrGoesRoundNameThePlaceAndTheRemedy) {
   const string window = "{from: 1, until: 3, velocity: [0, 1, 0]}";
   EXPECT_EQ(in_parts(errors_of(with("{every: 2, windows: [" + window + "]}"))),
-            (Parts{{"5:85 1", "this window ends at 3 s, but the windows repeat every 2 s",
+            (Parts{{"5:94 3", "this window ends at 3 s, but the windows repeat every 2 s",
                     "expected windows from 0 to `every`"}}));
   EXPECT_EQ(in_parts(errors_of(with("{every: 2, windows: [{from: 2, velocity: [0, 1, 0]}]}"))),
-            (Parts{{"5:76 1", "`every` is 2 but `from` is 2", "expected from < every"}}));
+            (Parts{{"5:84 2", "`every` is 2 but `from` is 2", "expected from < every"}}));
   EXPECT_EQ(first_error("{every: 2, windows: [{until: 1, velocity: [0, 1, 0]}, {from: 0.5, velocity: [0, 1, 0]}]}"),
-            "scene.yaml:5:109: error: this window starts at 0.5 s, but the one before it ends at 1 s");
+            "scene.yaml:5:117: error: this window starts at 0.5 s, but the one before it ends at 1 s");
   EXPECT_EQ(first_error("{every: 0, windows: []}"), "scene.yaml:5:64: error: `every` is 0");
   EXPECT_EQ(first_error("{every: 2}"), "scene.yaml:5:48: error: `motion` has no `windows` and no `sine` and no `circle`");
-  EXPECT_EQ(first_error("{every: 2, sine: {amplitude: [0, 1, 0], period: 1}}"), "");
+  EXPECT_EQ(first_error("{every: 2, sine: {amplitude: [0, 1, 0], period: 1}}"),
+            "scene.yaml:5:57: error: `motion` has `every` but no `windows`");
   EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 0}}"), "scene.yaml:5:94: error: `period` is 0");
-  EXPECT_EQ(first_error("{sine: {period: 1}}"), "");
-  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 1}, circle: {center: [0, 1, 0], axis: [1, 0, 0], period: 1}}"), "");
-  EXPECT_EQ(first_error("{circle: {center: [0, 1, 0], axis: [0, 0, 0], period: 1}}"), "");
-  EXPECT_EQ(in_parts(errors_of(with("{circle: {center: [0, 1, 0], axis: [0, 1, 0], period: 1}}"))), (Parts{}));
-  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 1e-30}}"), "");
-  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1e15, 0], period: 1}}"), "");
-  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 1, phase: 1e4}}"), "");
+  EXPECT_EQ(first_error("{sine: {period: 1}}"), "scene.yaml:5:57: error: `sine` has no `amplitude`");
+  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 1}, "
+                        "circle: {center: [0, 1, 0], axis: [1, 0, 0], period: 1}}"),
+            "scene.yaml:5:98: error: `motion` has both `sine` and `circle`");
+  EXPECT_EQ(first_error("{circle: {center: [0, 1, 0], axis: [0, 0, 0], period: 1}}"),
+            "scene.yaml:5:91: error: `axis` has no length");
+  EXPECT_EQ(in_parts(errors_of(with("{circle: {center: [0, 1, 0], axis: [0, 1, 0], period: 1}}"))),
+            (Parts{{"5:65 {", "the axis goes through this thing's place, so that it would not move",
+                    "expected another `center` or `axis`, or no `motion`"}}));
+  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 1e-30}}"),
+            "scene.yaml:5:56: error: `floor` moves at up to 6.283185307179585e+30 m/s");
+  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1e15, 0], period: 1}}"),
+            "scene.yaml:5:56: error: `floor` goes as far as 1e+15 m from the origin, more than 1e+12 times the smallest "
+            "size, 0.1 m");
+  EXPECT_EQ(first_error("{sine: {amplitude: [0, 1, 0], period: 1, phase: 1e4}}"),
+            "scene.yaml:5:104: error: `phase` is 1e4");
 }
 
 }  // namespace
