@@ -34,8 +34,8 @@ bool is_before(const DoubleDouble& a, const DoubleDouble& b) {
   return a.hi < b.hi || (a.hi == b.hi && a.lo < b.lo);
 }
 
-/// The last leg that starts no later than `time` (s). Starts are compared as start_of() gives them, so that each leg has
-/// begun at its own start.
+/// The last leg that starts no later than `time` (s). Starts are compared as start_of() gives them, so that each leg
+/// has begun at its own start.
 LegAt present_leg(const SurfaceMotion& motion, const DoubleDouble& time) {
   LegAt at;
   if (motion.every < infinity) {
@@ -219,8 +219,8 @@ Vec3 acceleration_on(const SurfaceMotion& motion, const DoubleDouble& time) {
   return -(rate * rate) * (sine * motion.swing->sine + cosine * motion.swing->cosine);
 }
 
-/// Through velocity, acceleration and jerk at the start and the end, and the first two in the middle. A body that leaves
-/// the thing at the start may be slow, so that the velocity is exact there.
+/// Through velocity, acceleration and jerk at the start and the end, and the first two in the middle. A body that
+/// leaves the thing at the start may be slow, so that the velocity is exact there.
 PolynomialPath::Terms displacement_on(const Swing& swing, const DoubleDouble& time, double length) {
   const double rate = turning_rate(swing);
   const auto at = [&](double since) {
@@ -255,8 +255,7 @@ double greatest_speed(const Swing& swing) {
 }
 
 double swept_along(const SurfaceMotion& motion, const Vec3& direction) {
-  if (motion.swing)
-    return motion.swing->middle.dot(direction) + (1 + 0x1p-50) * width_along(*motion.swing, direction);
+  if (motion.swing) return motion.swing->middle.dot(direction) + (1 + 0x1p-50) * width_along(*motion.swing, direction);
   if (!motion.moves()) return 0;
 
   // The last leg has no end, or each period goes on from where the one before has arrived.

@@ -116,9 +116,7 @@ struct World {
   bool moves(Entity e) const { return !motions.empty() && is_fixed(e) && motions[e - body_count()].moves(); }
   const SurfaceMotion& motion(Entity e) const { return motions[e - body_count()]; }
   /// The swing of a fixed thing. Null: it does not swing.
-  const Swing* swing(Entity e) const {
-    return moves(e) && motion(e).swing ? &*motion(e).swing : nullptr;
-  }
+  const Swing* swing(Entity e) const { return moves(e) && motion(e).swing ? &*motion(e).swing : nullptr; }
   /// The point of a plane, the centre of a wall or an obstacle, or the anchor of a string (m), at time 0.
   const Vec3& fixed_position(Entity e) const {
     return is_plane(e)    ? plane(e).point

@@ -88,11 +88,14 @@ SurfaceMotion in_windows(const View& motion, double every, Diagnostics& diagnost
                       fmt::format("{} is {} but `from` is {}", given_until ? "`until`" : "`every`", shortest(until),
                                   shortest(from)),
                       fmt::format("expected from < {}", given_until ? "until" : "every"));
-    else if (until > every)
-      diagnostics.add(view.place("until"),
-                      fmt::format("this window ends at {} s, but the windows repeat every {} s", shortest(until),
-                                  shortest(every)),
-                      "expected windows from 0 to `every`");
+
+    // It lies within a period.
+    if (from < until && until > every)
+      diagnostics.add(
+          view.place("until"),
+          fmt::format("this window ends at {} s, but the windows repeat every {} s", shortest(until), shortest(every)),
+          "expected windows from 0 to `every`");
+
     if (!windows.empty() && from < windows.back().until) {
       const double end = windows.back().until;
       diagnostics.add(view.place("from"),
@@ -157,8 +160,10 @@ void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagno
     const string_view kind = view.kind().name;
     const string& name = entry.key->text;
     World& world = scene.world;
-    const auto let_move = [&](Vec3& place) { add_motion(view, entry.first, place, scene, diagnostics); };
     if (kind == "room") add_room(view, name, scene, diagnostics);
+
+    // Each that may move.
+    const auto let_move = [&](Vec3& place) { add_motion(view, entry.first, place, scene, diagnostics); };
     if (kind == "plane") {
       add_plane(filled<PlaneKeys>(view), name, scene);
       let_move(world.planes.back().point);

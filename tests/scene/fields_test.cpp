@@ -65,7 +65,8 @@ TEST(Fields, EveryKeyOfAThingFillsAMember) {
     for (const Field& field : kind.fields) {
       // Lists, maps in whose place a list may stand, and a group's ball, which has defaults of its own.
       // Repeated things are replaced by their members before maps fill structs.
-      if (field.type == Type::list || field.plain == "windows" || field.of == "member" || field.type == Type::repeat) continue;
+      if (field.type == Type::list || field.plain == "windows" || field.of == "member" || field.type == Type::repeat)
+        continue;
       EXPECT_NE(field.member.fill, nullptr) << kind.name << "." << field.key;
     }
   }

@@ -6,6 +6,7 @@
 
 #include "physics/world.h"
 #include "simulate/build.h"
+#include "simulate/snapshot.h"
 #include "std.h"
 
 namespace carom {
@@ -72,6 +73,7 @@ TEST(SwingingThings, ABouncingBallLandsWhereNewtonsMethodFindsIt) {
       const Outcome run = run_exact(problem);
       ASSERT_GT(run.collisions.size(), 10u) << e;
 
+      // Each hop starts from what the one before has left.
       double worst = 0;
       size_t followed = 0;
       for (size_t k = 0; k + 1 < run.collisions.size(); ++k) {
@@ -82,6 +84,7 @@ TEST(SwingingThings, ABouncingBallLandsWhereNewtonsMethodFindsIt) {
         worst = max(worst, static_cast<double>(std::abs(next_landing(table, hit.time, v) -
                                                         static_cast<Long>(run.collisions[k + 1].time))));
       }
+
       EXPECT_GT(followed, 4u);
       EXPECT_LT(worst, 3e-14) << e << ' ' << times_g;
       EXPECT_NEAR(residual(problem, run), 0, 1e-11) << e << ' ' << times_g;
@@ -219,6 +222,192 @@ TEST(SwingingThings, WindowsThatRepeatAreThoseThatAreWrittenOut) {
   for (size_t k = 0; k < written.all.size(); ++k) EXPECT_EQ(repeated.all[k].time, written.all[k].time) << k;
   for (Entity i = 0; i < 5; ++i) EXPECT_EQ(repeated.end.position[i], written.end.position[i]) << i;
   EXPECT_NEAR(residual(problem(motion_in_windows(period, 1)), repeated), 0, 1e-9);
+}
+
+/// Three boxes on one another, and three balls between walls: two side by side and one on them. All of it on a table.
+Problem piles(const SurfaceMotion& motion) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g_n, 0);
+  for (int k = 0; k < 3; ++k) problem.body(Volume::box({0.2, 0.2, 0.2}), {-1, 0.1 + 0.2 * k, 0}, {0, 0, 0}, 1 + k, 0.5);
+  for (int k = 0; k < 2; ++k) problem.ball({0.1 + 0.2 * k, 0.1, 0}, {0, 0, 0}, 1, 0.1, 0.5);
+  problem.ball({0.2, 0.1 + sqrt(0.03), 0}, {0, 0, 0}, 2, 0.1, 0.5);
+
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  problem.wall({0, 0.5, 0}, {1, 0, 0}, 1, 1);
+  problem.wall({0.4, 0.5, 0}, {-1, 0, 0}, 1, 1);
+  problem.move(6, motion);
+  problem.options.duration = 5;
+  return problem;
+}
+
+TEST(SwingingThings, PilesGoUpAndDownWithTheirTable) {
+  const Table table{amplitude_for(0.6, 0.25), 0.25, -90};
+  Problem problem = piles(motion_on_sine({0, table.amplitude, 0}, table.period, table.phase));
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+
+  double place = 0, force = 0;
+  for (int k = 1; k < 50; ++k) {
+    const double t = 0.0999 * k;
+    go_to(*simulator, t);
+    const double up = static_cast<double>(table.height(t)) - static_cast<double>(table.height(0));
+    for (Entity i = 0; i < 6; ++i)
+      place = max(place, (simulator->state().position[i] - problem.initial.position[i] - Vec3(0, up, 0)).norm());
+    force = max(force, std::abs(force_between(*simulator, 0, 6) -
+                                static_cast<double>(6 * (static_cast<Long>(g_n) + table.acceleration(t)))));
+  }
+  std::cout << "piles: off by " << place << " m, " << force << " N, " << simulator->effort().events << " events\n";
+  EXPECT_LT(place, 1e-11);
+  EXPECT_LT(force, 1e-9);
+
+  const Outcome run = run_exact(problem);
+  EXPECT_TRUE(run.collisions.empty());
+  std::cout << "residual " << residual(problem, run) << " J\n";
+  EXPECT_NEAR(residual(problem, run), 0, 1e-9);
+}
+
+TEST(SwingingThings, ATableOnACircleIsOneOnASine) {
+  const double radius = amplitude_for(1.3, 0.3);
+  const auto with = [&](const SurfaceMotion& motion) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -g_n, 0);
+    problem.options.duration = 2;
+    problem.ball({0.3, 0.1, 0}, {0.25, 0, 0}, 2, 0.1, 0.3);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    problem.move(1, motion);
+    return run_exact(problem);
+  };
+
+  const Outcome sine = with(motion_on_sine({0, radius, 0}, 0.3, -90));
+  const Outcome circle = with(motion_on_circle({0, 0, 0}, {0, radius, 0}, {0, 0, 1}, 0.3));
+  ASSERT_GT(sine.collisions.size(), 20u);
+  ASSERT_EQ(sine.collisions.size(), circle.collisions.size());
+  for (size_t k = 0; k < 5; ++k) EXPECT_NEAR(sine.collisions[k].time, circle.collisions[k].time, 1e-12) << k;
+  EXPECT_NEAR(sine.end.position[0].x(), 0.8, 1e-14) << "there is no friction";
+}
+
+TEST(SwingingThings, AGrooveOfTwoPlanesCarriesItsBall) {
+  const Table table{amplitude_for(0.5, 0.2), 0.2, -90};
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g_n, 0);
+  problem.options.duration = 10;
+  problem.ball({0, 0.1 * sqrt(2.0), 0}, {0, 0, 0.5}, 2, 0.1, 0.5);
+  problem.plane({0, 0, 0}, {1, 1, 0});
+  problem.plane({0, 0, 0}, {-1, 1, 0});
+  for (const Entity e : {1u, 2u}) problem.move(e, motion_on_sine({0, table.amplitude, 0}, table.period, table.phase));
+
+  const Outcome run = run_exact(problem);
+  EXPECT_TRUE(run.all.empty());
+  const double up = static_cast<double>(table.height(10)) - static_cast<double>(table.height(0));
+  EXPECT_LT((run.end.position[0] - Vec3(0, 0.1 * sqrt(2.0) + up, 5)).norm(), 1e-12);
+  EXPECT_NEAR(residual(problem, run), 0, 1e-11);
+}
+
+/// Balls in a shaken room without a lid.
+Problem shaken_room(int balls, double times_g, double e, bool backwards = false) {
+  Problem problem;
+  problem.world.gravity = Vec3(0, -g_n, 0);
+  const auto n = static_cast<Entity>(balls);
+  for (int k = 0; k < balls; ++k) {
+    const int number = backwards ? balls - 1 - k : k;
+    const double off = 0.01 * std::fmod(number * 0.618, 1);
+    problem.ball({-0.15 + 0.1 * (number % 4) + off, 0.06 + 0.11 * (number / 16) - off, -0.15 + 0.1 * (number / 4 % 4)},
+                 {0, 0, 0}, 1, 0.045, e);
+  }
+
+  problem.plane({0, 0, 0}, {0, 1, 0});
+  for (const double side : {-1, 1}) {
+    problem.plane({0.2 * side, 0, 0}, {-side, 0, 0});
+    problem.plane({0, 0, 0.2 * side}, {0, 0, -side});
+  }
+  const SurfaceMotion shake = motion_on_sine({0.002, amplitude_for(times_g, 0.1), 0}, 0.1, -90);
+  for (Entity e = n; e < n + 5; ++e) problem.move(e, shake);
+  return problem;
+}
+
+TEST(SwingingThings, BothEnginesAndEveryOrderOfBodiesGiveOneMotion) {
+  for (const double times_g : {0.7, 2.5}) {
+    Problem problem = shaken_room(6, times_g, 0.4);
+    problem.options.duration = 0.5;
+    const Outcome exact = run_exact(problem);
+    ASSERT_GT(exact.collisions.size(), 20u);
+    EXPECT_NEAR(residual(problem, exact), 0, 1e-11);
+
+    Problem backwards = shaken_room(6, times_g, 0.4, true);
+    backwards.options.duration = 0.5;
+    const Outcome other = run_exact(backwards);
+    for (Entity i = 0; i < 6; ++i)
+      EXPECT_LT((other.end.position[5 - i] - exact.end.position[i]).norm(), 1e-9) << times_g << ' ' << i;
+
+    for (const Integrator integrator : {Integrator::dop853, Integrator::rk4, Integrator::verlet}) {
+      problem.options.closed_forms = false;
+      problem.options.integrator = integrator;
+      problem.options.step = integrator == Integrator::dop853 ? infinity : 1e-3;
+      const Outcome stepped = run_exact(problem);
+      for (Entity i = 0; i < 6; ++i)
+        EXPECT_LT((stepped.end.position[i] - exact.end.position[i]).norm(), 1e-9) << times_g << ' ' << i;
+    }
+  }
+}
+
+TEST(SwingingThings, CrowdsInThemBalanceTheirEnergyAndDoNotOverlap) {
+  for (const double times_g : {0.5, 2.0}) {
+    Problem problem = shaken_room(100, times_g, 0.3);
+    problem.options.duration = 2;
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    const Outcome run = run_to_end(*simulator, problem.options.duration);
+
+    std::cout << times_g << " g: work " << run.tally.work << " J, residual " << residual(problem, run) << " J, overlap "
+              << run.tally.max_overlap << " m\n";
+    EXPECT_NEAR(unbooked(problem, run), 0, 1e-10) << times_g;
+    EXPECT_NEAR(residual(problem, run), 0, 1e-3 * (std::abs(run.tally.work) + run.tally.energy_lost)) << times_g;
+    for (const Vec3& x : run.end.position) {
+      EXPECT_GT(x.y(), fixed_position(problem.world, 100, {2, 0}).y() + 0.045 - 1e-9);
+      EXPECT_LT(std::abs(x.z()), 0.2 - 0.045 + 1e-9);
+    }
+  }
+}
+
+TEST(SwingingThings, FarAwayCostNothing) {
+  const auto events = [](const SurfaceMotion& motion) {
+    Problem problem;
+    problem.world.gravity = Vec3(0, -g_n, 0);
+    problem.options.duration = 100;
+    problem.ball({0, 2, 0}, {0.1, 0, 0}, 1, 0.1, 0.9);
+    problem.ball({0.15, 0.1, 0}, {0, 0, 0.2}, 1, 0.1, 0.9);
+    problem.plane({0, 0, 0}, {0, 1, 0});
+    problem.wall({500, 0, 0}, {1, 0, 0}, 2, 2);
+    problem.move(3, motion);
+
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    go_to(*simulator, 100);
+    return pair(simulator->effort().events, simulator->effort().surface_tests);
+  };
+  const vector<MotionWindow> back_and_forth = {{0, 0.01, {1, 0, 0}}, {0.01, 0.02, {-1, 0, 0}}};
+  EXPECT_EQ(events(motion_on_sine({1, 0, 0}, 0.01, 0)), events({}));
+  EXPECT_EQ(events(motion_in_windows(back_and_forth, 0.02)), events({}));
+}
+
+TEST(SwingingThings, LeaveNoRoomForABodyThatTheyPressAgainstAWall) {
+  Problem problem;
+  problem.options.duration = 1;
+  problem.ball({0.1, 0, 0}, {0, 0, 0}, 1, 0.1, 0.5);
+  problem.plane({0, 0, 0}, {1, 0, 0});
+  problem.plane({0.25, 0, 0}, {-1, 0, 0});
+  problem.move(2, motion_on_sine({0.1, 0, 0}, 1, 180));
+  EXPECT_NE(error_of(problem).find("no room left between"), string::npos);
+  // With more room than the amplitude it is struck to and fro.
+  problem.world.planes[1].point.x() = 0.302;
+  EXPECT_EQ(error_of(problem), "");
+}
+
+TEST(SwingingThings, SnapshotsGoOnWithTheSameBits) {
+  for (Problem problem :
+       {shaken_room(12, 0.7, 0.4), shaken_room(60, 2, 0.3), piles(motion_on_sine({0, 0.01, 0}, 0.4, 90))}) {
+    problem.options.duration = 1;
+    problem.options.record_paths = true;
+    expect_same_when_restored([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); },
+                              {0.1, 0.33, 0.7, 1}, 3);
+  }
 }
 
 }  // namespace

@@ -276,6 +276,8 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
         const double rate = force_rate(bodies_.world, i, crowd.position(k), crowd.drift(k));
         if (rate > 0) length = min(length, quality_.longest_step / rate);
       }
+
+  // Things that swing turn and speed up as forces do.
   if (bodies_.moving.any())
     for (const Entity e : crowd.things)
       if (const Swing* swing = bodies_.world.swing(e))

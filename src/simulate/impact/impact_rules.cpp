@@ -148,9 +148,18 @@ FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, uint8_t feature) c
     pull = without.u.dot(n) + flat_.drag_along(i, n, surface);
   }
 
-  return {i,        surface,    feature, flat,  f.start == bodies_.now,
-          x,        v,          u,       there, pair_restitution(world, i, surface),
-          approach, pull - bend - n.dot(bodies_.fixed_acceleration(surface, bodies_.now))};
+  return {i,
+          surface,
+          feature,
+          flat,
+          f.start == bodies_.now,
+          x,
+          v,
+          u,
+          there,
+          pair_restitution(world, i, surface),
+          approach,
+          pull - bend - n.dot(bodies_.fixed_acceleration(surface, bodies_.now))};
 }
 
 bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
@@ -223,15 +232,15 @@ void ImpactRules::check_room(const FixedImpact& impact) const {
     if (opposite.gap > exact_tolerance::least_gap * world.radius[i] || !(closing > 0)) continue;
 
     // Faces that slow down in time leave room.
-    const double slowing = -n.dot(bodies_.fixed_acceleration(e, bodies_.now) -
-                                  bodies_.fixed_acceleration(impact.surface, bodies_.now));
+    const double slowing =
+        -n.dot(bodies_.fixed_acceleration(e, bodies_.now) - bodies_.fixed_acceleration(impact.surface, bodies_.now));
     if (closing * closing < 2 * slowing * opposite.gap) continue;
 
     // The room ends before the run, a change of motion and the rim of the surface.
     const double left = opposite.gap / closing;
-    const Instant until = min({bodies_.moving.next_switch(e, bodies_.now),
-                               bodies_.moving.next_switch(impact.surface, bodies_.now),
-                               Instant{bodies_.options.duration, 0}});
+    const Instant until =
+        min({bodies_.moving.next_switch(e, bodies_.now), bodies_.moving.next_switch(impact.surface, bodies_.now),
+             Instant{bodies_.options.duration, 0}});
     if (until < bodies_.now + left) continue;
     const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
     if (leave_feature(world, i, e, opposite.feature, along, left).time < never) continue;

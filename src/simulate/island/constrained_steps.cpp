@@ -60,6 +60,7 @@ void ConstrainedSteps::close_overlaps(IslandStep& step) const {
       p.bilateral = true;
       p.slack = least;
     }
+
     const double closes = p.bilateral ? std::abs(p.target) : p.target;
     overlap = overlap || closes > least;
   }

@@ -5,8 +5,8 @@
 #include "simulate/island/constrained_system.h"
 
 #include "numerics/cube_root.h"
-#include "numerics/elementary.h"
 #include "numerics/dormand_prince.h"
+#include "numerics/elementary.h"
 #include "numerics/gauss.h"
 #include "numerics/radau_collocation.h"
 #include "physics/closed_motion.h"

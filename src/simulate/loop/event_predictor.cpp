@@ -141,7 +141,7 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
   const bool carried = lies_on_flat(bodies_.mode(i));
 
   for (const Entity e : others) {
-    // They cannot meet.
+    // Partners cannot meet.
     if (constrained && modes_.are_partners(i, e)) {
       offer_switch(i, e, best);
       continue;
@@ -153,6 +153,8 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature, latest_tie(best));
       offer(i, best, ExactEvent{time, e, bodies_.body[e].version, feature, ExactEvent::Kind::body_body});
+
+      // Fixed things.
     } else if (bodies_.world.moves(e)) [[unlikely]] {
       meet_moving(i, e, best);
     } else if (!(carried && (flat_.carries(i, e) || flat_.hides(i, e))) && !(constrained && group_.hides(i, e))) {
@@ -163,7 +165,8 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
   }
 }
 
-/// The same for a fixed thing that moves. Its present leg alone counts, and what comes after is predicted where it ends.
+/// The same for a fixed thing that moves. Its present leg alone counts, and what comes after is predicted where it
+/// ends.
 void EventPredictor::meet_moving(Entity i, Entity thing, ExactEvent& best) {
   offer_switch(i, thing, best);
   if (lies_on_flat(bodies_.mode(i)) && (flat_.carries(i, thing) || flat_.hides(i, thing))) return;
@@ -177,8 +180,9 @@ void EventPredictor::meet_moving(Entity i, Entity thing, ExactEvent& best) {
 /// Offers the next instant at which the velocity of a thing near body i jumps.
 void EventPredictor::offer_switch(Entity i, Entity thing, ExactEvent& best) const {
   if (bodies_.world.moves(thing))
-    offer(i, best,
-          ExactEvent{bodies_.moving.next_switch(thing, bodies_.now), no_entity, 0, no_feature, ExactEvent::Kind::force});
+    offer(
+        i, best,
+        ExactEvent{bodies_.moving.next_switch(thing, bodies_.now), no_entity, 0, no_feature, ExactEvent::Kind::force});
 }
 
 /// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.

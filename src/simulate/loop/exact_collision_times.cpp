@@ -194,8 +194,8 @@ double ExactCollisionTimes::noise_in_contact(Entity i) const {
              : 0;
 }
 
-/// How long body i, at t (s) of its flight, surely stays clear of a thing that swings (s). A plane through the points at
-/// which it is the closest to the thing's middle parts the two until it has come as near as the thing ever goes.
+/// How long body i, at t (s) of its flight, surely stays clear of a thing that swings (s). A plane through the points
+/// at which it is the closest to the thing's middle parts the two until it has come as near as the thing ever goes.
 double ExactCollisionTimes::clear_time(Entity i, const Flight& f, double t, Entity surface) const {
   const World& world = bodies_.world;
   const Swing& swing = *world.swing(surface);
