@@ -280,8 +280,10 @@ TEST(SwingingThings, ATableOnACircleIsOneOnASine) {
   const Outcome sine = with(motion_on_sine({0, radius, 0}, 0.3, -90));
   const Outcome circle = with(motion_on_circle({0, 0, 0}, {0, radius, 0}, {0, 0, 1}, 0.3));
   ASSERT_GT(sine.collisions.size(), 20u);
-  ASSERT_EQ(sine.collisions.size(), circle.collisions.size());
-  for (size_t k = 0; k < 5; ++k) EXPECT_NEAR(sine.collisions[k].time, circle.collisions[k].time, 1e-12) << k;
+  ASSERT_GT(circle.collisions.size(), 20u);
+  // What ends the hops is rounding, and their number with it.
+  for (size_t k = 0; k < 20; ++k) EXPECT_NEAR(sine.collisions[k].time, circle.collisions[k].time, 1e-12) << k;
+  EXPECT_LT((sine.end.position[0] - circle.end.position[0]).norm(), 1e-11);
   EXPECT_NEAR(sine.end.position[0].x(), 0.8, 1e-14) << "there is no friction";
 }
 
@@ -309,18 +311,20 @@ Problem shaken_room(int balls, double times_g, double e, bool backwards = false)
   const auto n = static_cast<Entity>(balls);
   for (int k = 0; k < balls; ++k) {
     const int number = backwards ? balls - 1 - k : k;
-    const double off = 0.01 * std::fmod(number * 0.618, 1);
-    problem.ball({-0.15 + 0.1 * (number % 4) + off, 0.06 + 0.11 * (number / 16) - off, -0.15 + 0.1 * (number / 4 % 4)},
+    const double off = 0.02 * std::fmod(number * 0.618, 1);
+    const double across = 0.02 * std::fmod(number * 0.755, 1);
+    problem.ball({-0.18 + 0.12 * (number % 4) + off, 0.06 + 0.13 * (number / 16) + off,
+                  -0.18 + 0.12 * (number / 4 % 4) + across},
                  {0, 0, 0}, 1, 0.045, e);
   }
 
   problem.plane({0, 0, 0}, {0, 1, 0});
   for (const double side : {-1, 1}) {
-    problem.plane({0.2 * side, 0, 0}, {-side, 0, 0});
-    problem.plane({0, 0, 0.2 * side}, {0, 0, -side});
+    problem.plane({0.25 * side, 0, 0}, {-side, 0, 0});
+    problem.plane({0, 0, 0.25 * side}, {0, 0, -side});
   }
   const SurfaceMotion shake = motion_on_sine({0.002, amplitude_for(times_g, 0.1), 0}, 0.1, -90);
-  for (Entity e = n; e < n + 5; ++e) problem.move(e, shake);
+  for (Entity fixed = n; fixed < n + 5; ++fixed) problem.move(fixed, shake);
   return problem;
 }
 
@@ -351,18 +355,20 @@ TEST(SwingingThings, BothEnginesAndEveryOrderOfBodiesGiveOneMotion) {
 
 TEST(SwingingThings, CrowdsInThemBalanceTheirEnergyAndDoNotOverlap) {
   for (const double times_g : {0.5, 2.0}) {
-    Problem problem = shaken_room(100, times_g, 0.3);
-    problem.options.duration = 2;
+    Problem problem = shaken_room(60, times_g, 0.3);
+    problem.options.duration = 1.5;
     const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
     const Outcome run = run_to_end(*simulator, problem.options.duration);
 
     std::cout << times_g << " g: work " << run.tally.work << " J, residual " << residual(problem, run) << " J, overlap "
               << run.tally.max_overlap << " m\n";
-    EXPECT_NEAR(unbooked(problem, run), 0, 1e-10) << times_g;
-    EXPECT_NEAR(residual(problem, run), 0, 1e-3 * (std::abs(run.tally.work) + run.tally.energy_lost)) << times_g;
+    const double turned_over = std::abs(run.tally.work) + run.tally.energy_lost;
+    EXPECT_NEAR(unbooked(problem, run), 0, 1e-11 * turned_over) << times_g;
+    EXPECT_NEAR(residual(problem, run), 0, 1e-4 * turned_over) << times_g;
+    EXPECT_LT(run.tally.max_overlap, 1e-10 * 0.045) << times_g;
     for (const Vec3& x : run.end.position) {
-      EXPECT_GT(x.y(), fixed_position(problem.world, 100, {2, 0}).y() + 0.045 - 1e-9);
-      EXPECT_LT(std::abs(x.z()), 0.2 - 0.045 + 1e-9);
+      EXPECT_GT(x.y(), fixed_position(problem.world, 60, {1.5, 0}).y() + 0.045 - 1e-9);
+      EXPECT_LT(std::abs(x.z()), 0.25 - 0.045 + 1e-9);
     }
   }
 }
@@ -402,11 +408,11 @@ TEST(SwingingThings, LeaveNoRoomForABodyThatTheyPressAgainstAWall) {
 
 TEST(SwingingThings, SnapshotsGoOnWithTheSameBits) {
   for (Problem problem :
-       {shaken_room(12, 0.7, 0.4), shaken_room(60, 2, 0.3), piles(motion_on_sine({0, 0.01, 0}, 0.4, 90))}) {
-    problem.options.duration = 1;
+       {shaken_room(12, 0.7, 0.4), shaken_room(30, 2, 0.3), piles(motion_on_sine({0, 0.01, 0}, 0.4, 90))}) {
+    problem.options.duration = 0.4;
     problem.options.record_paths = true;
     expect_same_when_restored([&] { return make_exact_simulator(problem.world, problem.initial, problem.options); },
-                              {0.1, 0.33, 0.7, 1}, 3);
+                              {0.1, 0.25, 0.4}, 2);
   }
 }
 
