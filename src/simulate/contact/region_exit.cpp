@@ -7,11 +7,7 @@
 
 namespace carom {
 
-namespace {
-
-/// within(): s from now, after which no bound is needed.
-template <typename Within>
-inline double exit_of(const ExactBodies& bodies, Entity i, Within within) {
+double region_exit(const ExactBodies& bodies, Entity i) {
   const Flights::Core& f = bodies.flights.cores()[i];
   const Vec3& a = bodies.flights.acceleration(i);
   const double fade = bodies.flights.fade(i);
@@ -58,7 +54,7 @@ inline double exit_of(const ExactBodies& bodies, Entity i, Within within) {
   if (const double size = curve == nullptr ? a.norm() : curve->greatest_acceleration(); size > 0) {
     // The greater of two bounds: a straight path within the room less the acceleration's share, and the greatest
     // possible speed. It continues from there as long as that gains time.
-    const double end = within();
+    const double end = bodies.body[i].event.time.hi - bodies.now.hi;
     const auto bound = [&](double straight) {
       const double narrowed = room - 0.5 * size * straight * straight;
       const double left = room - off.norm();
@@ -78,16 +74,6 @@ inline double exit_of(const ExactBodies& bodies, Entity i, Within within) {
 
   // The bound errs on the early side.
   return (bodies.now.hi + t) * (1 - 0x1p-52);
-}
-
-}  // namespace
-
-double region_exit(const ExactBodies& bodies, Entity i) {
-  return exit_of(bodies, i, [&] { return bodies.body[i].event.time.hi - bodies.now.hi; });
-}
-
-double latest_region_exit(const ExactBodies& bodies, Entity i) {
-  return exit_of(bodies, i, [] { return never; });
 }
 
 span<const Entity> renew_region(ExactBodies& bodies, Entity i, double until) {

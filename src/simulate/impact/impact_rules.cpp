@@ -164,8 +164,6 @@ FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, uint8_t feature) c
 
 bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
-  // The body's path on the surface is not a parabola.
-  if (bodies_.world.swing(surface) != nullptr) return false;
   const double separation = e * approach;
   contact = {surface, feature, -there.normal, false, bodies_.now, separation};
   const size_t carrying = flat_.of(i).count;
@@ -175,18 +173,20 @@ bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact)
   if (carrying > 0 && flat && carrying < FlatContactList::most && !in_lasting_contact(bodies_.mode(i)) && e <= 1 &&
       weight > 0 &&
       approach * approach <
-          weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
+          weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i]) &&
+      bodies_.world.swing(surface) == nullptr) {
     contact.residual_speed = 0;
     contact.rest_time = bodies_.now;
     return true;
   }
 
-  // Nor is it where forces bend it.
+  // The body's path on the surface is not a parabola.
   if (bodies_.bent[i]) return false;
   const bool ends = e < 1 || approach == 0 ||
                     (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
   if (!(press > 0) || !flat || in_lasting_contact(bodies_.mode(i)) || carrying >= FlatContactList::most || !ends)
     return false;
+  if (bodies_.world.swing(surface) != nullptr) return false;
 
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
   // The body does not hop on this surface alone. Other bodies, or the surfaces that carry it, throw it back at once.
@@ -203,14 +203,14 @@ bool ImpactRules::over_at_once(const FixedImpact& impact, double left) const {
 
 bool ImpactRules::ends(const FixedImpact& impact, bool again) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
-  const bool bends = bodies_.bent[i] || bodies_.world.swing(surface) != nullptr;
   if (approach == 0 && (bodies_.path_bends(i) || bodies_.world.swing(surface) != nullptr)) return true;
   const bool alone = flat && !collapses_.among_bodies(i);
   const double held = holding(press, i, surface);
   if (collapses_.count_impact(i, surface, e, approach, held, bodies_.world.radius[i], alone, again)) return true;
   const double separation = e * approach;
   if (!(press > 0)) return false;
-  if (flat && bends && !in_lasting_contact(bodies_.mode(i)) && e < 1)
+  if (flat && e < 1 && !in_lasting_contact(bodies_.mode(i)) &&
+      (bodies_.bent[i] || bodies_.world.swing(surface) != nullptr))
     return over_at_once(impact, 2 * separation / (press * (1 - e)));
   if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
   return (!flat || in_lasting_contact(bodies_.mode(i))) && (separation == 0 || bodies_.too_low(x, separation, press));

@@ -155,7 +155,7 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
       offer(i, best, ExactEvent{time, e, bodies_.body[e].version, feature, ExactEvent::Kind::body_body});
 
       // Fixed things.
-    } else if (bodies_.world.moves(e)) [[unlikely]] {
+    } else if (bodies_.moving.any() && bodies_.world.moves(e)) [[unlikely]] {
       meet_moving(i, e, best);
     } else if (!(carried && (flat_.carries(i, e) || flat_.hides(i, e))) && !(constrained && group_.hides(i, e))) {
       ++surface_tests_;
@@ -173,8 +173,16 @@ void EventPredictor::meet_moving(Entity i, Entity thing, ExactEvent& best) {
   if (bodies_.mode(i) == Mode::held && group_.hides(i, thing)) return;
   ++surface_tests_;
   uint8_t feature = no_feature;
-  const Instant time = times_.of_moving(i, thing, feature);
+  const Instant time = times_.of_moving(i, thing, feature, latest_exit(i));
   offer(i, best, ExactEvent{time, thing, 0, feature, ExactEvent::Kind::body_fixed});
+}
+
+/// The latest time (s) at which body i leaves its region, whatever its event is. Its events are predicted anew then.
+double EventPredictor::latest_exit(Entity i) {
+  const ExactEvent kept = exchange(bodies_.body[i].event, ExactEvent{});
+  const double exit = region_exit(bodies_, i);
+  bodies_.body[i].event = kept;
+  return exit;
 }
 
 /// Offers the next instant at which the velocity of a thing near body i jumps.

@@ -52,6 +52,7 @@ class EventPredictor {
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
   void meet_each(Entity i, span<const Entity> others, ExactEvent& best);
   [[gnu::noinline]] void meet_moving(Entity i, Entity thing, ExactEvent& best);
+  double latest_exit(Entity i);
   void offer_switch(Entity i, Entity thing, ExactEvent& best) const;
   void meet_bodies(Entity i, span<const Entity> others, ExactEvent& best);
   void meet_alike(Entity i, span<const Entity> others, ExactEvent& best);

@@ -6,7 +6,6 @@
 #include "geometry/contact_time.h"
 #include "geometry/path_time_of_impact.h"
 #include "physics/world.h"
-#include "simulate/contact/region_exit.h"
 #include "simulate/tolerances.h"
 #include "std.h"
 
@@ -214,12 +213,12 @@ double ExactCollisionTimes::clear_time(Entity i, const Flight& f, double t, Enti
 }
 
 /// A thing that swings: wherever it may be near, piece by piece of its path, in each of which a polynomial gives that
-/// to rounding. The search ends where the body leaves its region, because another one begins there.
-Instant ExactCollisionTimes::of_swinging(Entity i, Entity surface, uint8_t& feature) const {
+/// to rounding.
+Instant ExactCollisionTimes::of_swinging(Entity i, Entity surface, uint8_t& feature, double until) const {
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
   const Swing& swing = *world.swing(surface);
-  double horizon = min(end_of(i), Instant{latest_region_exit(bodies_, i), 0}) - f.start;
+  double horizon = min(end_of(i), Instant{until, 0}) - f.start;
   // What stays where it is meets the thing in the first period, or never.
   if (f.is_straight() && f.v.isZero(0) && f.a.isZero(0)) horizon = min(horizon, (bodies_.now - f.start) + swing.period);
 
@@ -256,9 +255,9 @@ Instant ExactCollisionTimes::of_swinging(Entity i, Entity surface, uint8_t& feat
 }
 
 /// Times count from the leg's start, if that is later than the flight's.
-Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& feature) const {
+Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& feature, double until) const {
   const World& world = bodies_.world;
-  if (world.swing(surface) != nullptr) return of_swinging(i, surface, feature);
+  if (world.swing(surface) != nullptr) return of_swinging(i, surface, feature, until);
   const Flight& f = bodies_.flights[i];
   const Instant base = max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
   const double since = base - f.start;

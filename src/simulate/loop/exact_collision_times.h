@@ -15,14 +15,13 @@ class ExactCollisionTimes {
   Instant of_pair(Entity i, Entity j, uint8_t& feature, double until = never) const;
   /// The time at which body i strikes a fixed thing that never moves, computed from its flight's start.
   Instant of_surface(Entity i, Entity surface, uint8_t& feature) const;
-  /// The same for a fixed thing that moves, on its present leg. Where it swings, infinity may also mean that the body
-  /// leaves its region before.
-  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, uint8_t& feature) const;
+  /// The same for a fixed thing that moves, on its present leg. Where it swings, it is that before `until` (s).
+  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, uint8_t& feature, double until) const;
   /// The time at which a string goes taut, computed as that of a pair.
   [[gnu::noinline]] Instant of_string(Entity string) const;
 
  private:
-  Instant of_swinging(Entity i, Entity surface, uint8_t& feature) const;
+  Instant of_swinging(Entity i, Entity surface, uint8_t& feature, double until) const;
   double clear_time(Entity i, const Flight& f, double t, Entity surface) const;
   Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                     uint8_t& feature) const;

@@ -22,6 +22,7 @@ Instant instant_of(const DoubleDouble& time) {
 MovingThings::MovingThings(const World& world) : world_(world) {
   for (size_t fixed = 0; fixed < world.motions.size(); ++fixed)
     if (world.motions[fixed].moves()) moving_.push_back(world.body_count() + Entity(fixed));
+  any_ = !moving_.empty();
 }
 
 Vec3 MovingThings::position(Entity e, const Instant& at) const {

@@ -14,7 +14,7 @@ class MovingThings {
   explicit MovingThings(const World& world);
 
   /// Whether there are any. Where there are none, no other function need be called.
-  bool any() const { return !moving_.empty(); }
+  bool any() const { return any_; }
   /// The position (m), the velocity (m/s) and the acceleration (m/s^2) of a fixed thing at an instant.
   Vec3 position(Entity e, const Instant& at) const;
   Vec3 velocity(Entity e, const Instant& at) const;
@@ -38,6 +38,7 @@ class MovingThings {
  private:
   const World& world_;
   vector<Entity> moving_;
+  bool any_ = false;
 };
 
 }  // namespace carom

@@ -108,7 +108,7 @@ struct BodyPaths {
   // A thing is what a body meets: another body, a fixed thing, or a string. A string is at its end away from
   // String::body: at a body, or at an anchor, which is as a fixed thing.
   /// The present position (m) and velocity (m/s) of a thing, and the acceleration of its path (m/s^2).
-  Vec3 position_of(Entity thing) const {
+  [[gnu::always_inline]] Vec3 position_of(Entity thing) const {
     const Entity i = world.second_body(thing);
     return i != no_entity ? position(i) : fixed_position(thing);
   }
