@@ -230,7 +230,11 @@ class GlbBuilder {
   void animate_thing(const MovingThing& thing) {
     const World& world = scene_.world;
     const double start = motion_.times.front(), end = motion_.times.back();
-    const vector<double> times = key_times(world.motion(thing.fixed), start, end);
+    // Of motions that repeat too often for keyframes of their own, the pictures have some.
+    const SurfaceMotion& moves = world.motion(thing.fixed);
+    const double period = moves.swing ? moves.swing->period : moves.every;
+    const bool many = (end - start) / period > 1000;
+    const vector<double> times = many ? motion_.times : key_times(moves, start, end);
 
     vector<array<float, 3>> places;
     for (const double time : times) {

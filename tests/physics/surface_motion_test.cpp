@@ -30,6 +30,7 @@ TEST(SurfaceMotion, OfASwingIsAPolynomialToRoundingForItsSmoothTime) {
   const Swing swing{0.5, {0, 0, 0}, {1, 0, 0.5}, {0, 2, 0}};
   SurfaceMotion motion;
   motion.swing = swing;
+
   const double length = smooth_time(swing);
   double worst = 0;
   for (int k = 0; k < 40; ++k) {
