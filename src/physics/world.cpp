@@ -15,11 +15,15 @@ bool acts(const Force& force, Entity body, double time) {
 
 Vec3 fixed_position(const World& world, Entity fixed, const DoubleDouble& time) {
   const Vec3& start = world.fixed_position(fixed);
-  return world.moves(fixed) ? place_on(start, leg_at(world.legs(fixed), time), time) : start;
+  return world.moves(fixed) ? place_on(start, world.motion(fixed), time) : start;
 }
 
 Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time) {
-  return world.moves(fixed) ? leg_at(world.legs(fixed), time).velocity : Vec3(Vec3::Zero());
+  return world.moves(fixed) ? velocity_on(world.motion(fixed), time) : Vec3(Vec3::Zero());
+}
+
+Vec3 fixed_acceleration(const World& world, Entity fixed, const DoubleDouble& time) {
+  return world.moves(fixed) ? acceleration_on(world.motion(fixed), time) : Vec3(Vec3::Zero());
 }
 
 bool place_fixed_things(const World& world, double time, World& copy) {

@@ -92,7 +92,7 @@ struct World {
   vector<Plane> planes;
   vector<Wall> walls;
   vector<Obstacle> obstacles;
-  vector<vector<MotionLeg>> motions;  // by fixed thing, none where it stands still; empty: nothing moves
+  vector<SurfaceMotion> motions;  // by fixed thing; empty: nothing moves
   vector<Force> forces;
   Vec3 gravity = Vec3(0, -9.80665, 0);  // m/s^2
   Combine combine = Combine::average;
@@ -131,8 +131,10 @@ struct World {
   }
   bool moves() const { return !motions.empty(); }
   /// Whether a fixed thing moves at some time, and how.
-  bool moves(Entity e) const { return !motions.empty() && is_fixed(e) && !motions[e - body_count()].empty(); }
-  const vector<MotionLeg>& legs(Entity e) const { return motions[e - body_count()]; }
+  bool moves(Entity e) const { return !motions.empty() && is_fixed(e) && motions[e - body_count()].moves(); }
+  const SurfaceMotion& motion(Entity e) const { return motions[e - body_count()]; }
+  /// The swing of a fixed thing. Null: it does not swing.
+  const Swing* swing(Entity e) const { return moves(e) && motion(e).swing ? &*motion(e).swing : nullptr; }
   /// The point of a plane, the centre of a wall or an obstacle, or the anchor of a string (m), at time 0.
   const Vec3& fixed_position(Entity e) const {
     return is_plane(e)    ? plane(e).point
@@ -149,8 +151,9 @@ struct World {
 
 /// The point of a plane, or the centre of a wall or an obstacle (m) at a time (s).
 Vec3 fixed_position(const World& world, Entity fixed, const DoubleDouble& time);
-/// The velocity of a fixed thing (m/s) from a time (s) on.
+/// The velocity of a fixed thing (m/s) from a time (s) on, and its acceleration (m/s^2).
 Vec3 fixed_velocity(const World& world, Entity fixed, const DoubleDouble& time);
+Vec3 fixed_acceleration(const World& world, Entity fixed, const DoubleDouble& time);
 
 /// Sets the positions of planes, walls and obstacles that move (m) to those at a time (s) in a copy of their World.
 /// Returns whether any has changed.

@@ -227,15 +227,16 @@ class GlbBuilder {
     Vec3 middle;  // m, at time 0
   };
 
-  /// Its positions at both ends of the film and where its velocity changes. They are linear in between. A plane moves
-  /// along its normal, as its pattern does in pictures.
+  /// Its positions at both ends of the film, where its velocity jumps, and along a swing. They are linear in between. A
+  /// plane moves along its normal, as its pattern does in pictures.
   void animate_thing(const MovingThing& thing) {
     const World& world = scene_.world;
     const double start = motion_.times.front(), end = motion_.times.back();
-    vector<double> times{start};
-    for (const MotionLeg& leg : world.legs(thing.fixed))
-      if (leg.from > start && leg.from < end) times.push_back(leg.from);
-    if (end > times.back()) times.push_back(end);
+    // Of motions that repeat too often for keyframes of their own, the pictures have some.
+    const SurfaceMotion& moves = world.motion(thing.fixed);
+    const double period = moves.swing ? moves.swing->period : moves.every;
+    const bool many = (end - start) / period > 1000;
+    const vector<double> times = many ? motion_.times : key_times(moves, start, end);
 
     vector<array<float, 3>> places;
     for (const double time : times) {

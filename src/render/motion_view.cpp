@@ -115,14 +115,13 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
   return content;
 }
 
-/// Where a fixed thing is while bodies are shown: at both ends of that time, and where its velocity changes.
+/// Where a fixed thing is while bodies are shown, where it goes farthest.
 vector<Vec3> MotionView::places_of(Entity fixed) const {
   const World& world = scene_.world;
-  vector<Vec3> places{fixed_position(world, fixed, {start_, 0})};
-  if (!world.moves(fixed)) return places;
-  for (const MotionLeg& leg : world.legs(fixed))
-    if (leg.from > start_ && leg.from < time_) places.push_back(fixed_position(world, fixed, {leg.from, 0}));
-  places.push_back(fixed_position(world, fixed, {time_, 0}));
+  if (!world.moves(fixed)) return {fixed_position(world, fixed, {start_, 0})};
+  vector<Vec3> places;
+  for (const double time : farthest_times(world.motion(fixed), start_, time_))
+    places.push_back(fixed_position(world, fixed, {time, 0}));
   return places;
 }
 

@@ -89,6 +89,9 @@ constexpr AbsentWord all_words[] = {
     {"piston|paddle|bat|racket|conveyor|elevator|lift|moving wall|moving floor|moving platform|plunger|flipper",
      "A plane, a wall or an obstacle with `motion` moves at constant velocities in windows of time.",
      "plane.motion|obstacle.motion"},
+    {"shake|shaking|shaker|vibrate|vibration|vibrating|oscillate|oscillating|swinging|moving on a circle|circling",
+     "`motion` of a plane, a wall or an obstacle has `sine` and `circle`, and `every` for windows that repeat.",
+     "motion.sine|motion.circle|motion.every"},
     {"sensor|trigger|goal|zone|pocket|kill zone|finish line|drain|sink",
      "`regions` are entered and left by the centres of bodies: `output.regions` writes when, and an `action` removes "
      "the "
@@ -166,7 +169,7 @@ constexpr AbsentWord all_words[] = {
      "plane.motion|obstacle.motion|groups"},
     {"delay|postpone|wait|start time|lag|schedule",
      "Forces and motions begin at their `from` and end at `until`. Bodies exist from time 0.",
-     "force.from|motion.from"},
+     "force.from|window.from"},
     {"momentum|linear momentum|px|py|pz|conservation of momentum",
      "`output.energy` lists the momentum of all bodies, and `arrows` show that of each. An `impulse` gives a body "
      "momentum at time 0.",

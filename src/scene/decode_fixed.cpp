@@ -70,22 +70,32 @@ void add_obstacle(const View& view, const string& name, Forms& forms, Scene& sce
   scene.roster.fixed.push_back({name, obstacle.color, obstacle.visible, form.mesh});
 }
 
-/// The legs of a thing's motion. None: it has no `motion`, or it never moves.
-vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
-  const Node* const list = thing.find("motion");
+/// The motion in windows that repeat after `every` (s).
+SurfaceMotion in_windows(const View& motion, double every, Diagnostics& diagnostics) {
+  const Node* const list = motion.find("windows");
   if (list == nullptr || !list->is_sequence()) return {};
 
   vector<MotionWindow> windows;
   for (const Node& node : list->items) {
     if (!node.is_map()) continue;
-    const View view(&node, kind_named("motion"), node.place);
-    const auto [from, until, velocity] = filled<MotionKeys>(view);
+    const View view(&node, kind_named("window"), node.place);
+    const auto [from, given_until, velocity] = filled<WindowKeys>(view);
+    const double until = given_until.value_or(every);
 
     // A window has a length, and starts after the one before.
     if (!(from < until))
-      diagnostics.add(view.place("until"),
-                      fmt::format("`until` is {} but `from` is {}", shortest(until), shortest(from)),
-                      "expected from < until");
+      diagnostics.add(view.place(given_until ? "until" : "from"),
+                      fmt::format("{} is {} but `from` is {}", given_until ? "`until`" : "`every`", shortest(until),
+                                  shortest(from)),
+                      fmt::format("expected from < {}", given_until ? "until" : "every"));
+
+    // It lies within a period.
+    if (from < until && until > every)
+      diagnostics.add(
+          view.place("until"),
+          fmt::format("this window ends at {} s, but the windows repeat every {} s", shortest(until), shortest(every)),
+          "expected windows from 0 to `every`");
+
     if (!windows.empty() && from < windows.back().until) {
       const double end = windows.back().until;
       diagnostics.add(view.place("from"),
@@ -96,15 +106,41 @@ vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
 
     if (velocity) windows.push_back({from, until, *velocity});
   }
-  return legs_of(windows);
+  return motion_in_windows(windows, every);
 }
 
-/// Stores the motion of the thing that was decoded last.
-void add_motion(const View& view, size_t number, Scene& scene, Diagnostics& diagnostics) {
-  vector<MotionLeg> legs = motion_of(view, diagnostics);
-  if (legs.empty()) return;
+/// The motion on a circle from a place (m) on.
+SurfaceMotion on_circle(const View& motion, const CircleKeys& keys, const Vec3& place, Diagnostics& diagnostics) {
+  const auto [center, axis, period] = keys;
+  if (motion.part("circle").vector("axis").value_or(Vec3::Zero()).isZero(0)) return {};
+  SurfaceMotion circle = motion_on_circle(place, center, unit(axis), period);
+  // What is left beside the axis by rounding is no circle.
+  const double rounding = 0x1p-50 * (place.cwiseAbs().sum() + center.cwiseAbs().sum());
+  if (circle.swing && circle.swing->cosine.norm() > rounding) return circle;
+  diagnostics.add(motion.place("circle"), "the axis goes through this thing's place, so that it would not move",
+                  "expected another `center` or `axis`, or no `motion`");
+  return {};
+}
+
+/// Lets the thing that was decoded last move. `place`: m, its place in the file. It becomes that at time 0.
+void add_motion(const View& thing, size_t number, Vec3& place, Scene& scene, Diagnostics& diagnostics) {
+  const Node* const given = thing.find("motion");
+  if (given == nullptr || !given->is_map()) return;
+  const View view(given, kind_named("motion"), given->place);
+  const auto keys = filled<MotionKeys>(view);
+
+  SurfaceMotion motion;
+  if (keys.sine) {
+    motion = motion_on_sine(keys.sine->amplitude, keys.sine->period, keys.sine->phase);
+    if (motion.swing) place -= motion.swing->middle;
+  } else if (keys.circle) {
+    motion = on_circle(view, *keys.circle, place, diagnostics);
+  } else {
+    motion = in_windows(view, keys.every.value_or(infinity), diagnostics);
+  }
+  if (!motion.moves()) return;
   scene.world.motions.resize(number + 1);
-  scene.world.motions[number] = std::move(legs);
+  scene.world.motions[number] = std::move(motion);
 }
 
 }  // namespace
@@ -123,11 +159,21 @@ void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagno
     const View& view = entry.view;
     const string_view kind = view.kind().name;
     const string& name = entry.key->text;
-    if (kind != "room") add_motion(view, entry.first, scene, diagnostics);
-    if (kind == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
+    World& world = scene.world;
     if (kind == "room") add_room(view, name, scene, diagnostics);
-    if (kind == "wall") add_wall(view, name, scene, diagnostics);
-    if (kind == "obstacle") add_obstacle(view, name, forms, scene);
+
+    // Each that may move.
+    const auto let_move = [&](Vec3& place) { add_motion(view, entry.first, place, scene, diagnostics); };
+    if (kind == "plane") {
+      add_plane(filled<PlaneKeys>(view), name, scene);
+      let_move(world.planes.back().point);
+    } else if (kind == "wall") {
+      add_wall(view, name, scene, diagnostics);
+      let_move(world.walls.back().center);
+    } else if (kind == "obstacle") {
+      add_obstacle(view, name, forms, scene);
+      let_move(world.obstacles.back().center);
+    }
   }
   if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }

@@ -486,10 +486,18 @@ void write_out_balls(Node& root) {
 
 void write_out(Node& part, const Kind& kind) {
   for (const Field& field : kind.fields) {
-    if (field.type != Type::part || !part.is_map()) continue;
-    Node* value = part.find(field.key);
-    if (value != nullptr && value->is_map()) write_out(*value, *field.held);
-    if (field.plain.empty() || value == nullptr || !value->is_scalar()) continue;
+    if (!part.is_map()) return;
+    Node* value = field.held == nullptr ? nullptr : part.find(field.key);
+    if (value == nullptr) continue;
+    if (field.type == Type::named && value->is_map())
+      for (Node& entry : value->items) write_out(entry, *field.held);
+    if (field.type != Type::part) continue;
+    if (value->is_map()) write_out(*value, *field.held);
+
+    // A list stands for a list, and any other plain value for one.
+    if (field.plain.empty()) continue;
+    const bool list = find_field(*field.held, field.plain)->type == Type::list;
+    if (!(list ? value->is_sequence() : value->is_scalar())) continue;
     Node whole;
     whole.kind = Node::Kind::map;
     whole.place = value->place;

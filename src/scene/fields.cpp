@@ -174,12 +174,31 @@ constexpr Field in_fields[] = {
 template <typename Keys> constexpr Field fixed_restitution = row<Keys, &Keys::restitution>("restitution", "Coefficient of restitution. Default: the moving body's.", "0.5", {.range = from_0});
 template <typename Keys> constexpr Field visible = row<Keys, &Keys::visible>("visible", "Whether it is drawn.", "false", {.drawn = true});
 
-constexpr Field motion = row("motion", "Windows of time in which it moves at a constant velocity, in order; outside them it stands where it has arrived. Of a plane only the part along the normal counts.", "[{from: 0, until: 2, velocity: [0, 0.5, 0]}]", {.type = Type::list, .of = "motion"});
+constexpr Field motion = row("motion", "How it moves: in windows of time, which may repeat, on a sine or on a circle. A list alone is `windows`. Of a plane only the part along the normal counts.", "[{from: 0, until: 2, velocity: [0, 0.5, 0]}]", {.type = Type::part, .of = "motion", .plain = "windows"});
 
 constexpr Field motion_fields[] = {
-    row<MotionKeys, &MotionKeys::from>("from", "When the motion starts.", "0.5", {.unit = "s", .range = from_0, .title = "Start"}),
-    row_if_given<MotionKeys, &MotionKeys::until>("until", "When the motion ends. Default: never.", "1.5", {.unit = "s", .range = above_0, .title = "End"}),
-    row<MotionKeys, &MotionKeys::velocity>("velocity", "Its velocity in this window.", "[0, 0.5, 0]", {.unit = "m/s", .needed = true}),
+    row("windows", "Windows of time in which it moves at a constant velocity, in order; outside them it stands where it has arrived.", "[{from: 0, until: 2, velocity: [0, 0.5, 0]}]", {.type = Type::list, .of = "window", .one_of = "windows|sine|circle", .needed = true}),
+    row_if_given<MotionKeys, &MotionKeys::every>("every", "Time after which the windows repeat. It goes on from where it has arrived. Default: they do not.", "2", {.unit = "s", .range = above_0, .title = "Period", .with = "windows"}),
+    row_if_given<MotionKeys, &MotionKeys::sine>("sine", "Back and forth for the whole run, about its place in the file.", "{amplitude: [0, 0.02, 0], period: 0.1}", {.of = "sine", .one_of = "windows|sine|circle"}),
+    row_if_given<MotionKeys, &MotionKeys::circle>("circle", "Round an axis for the whole run, from its place in the file on. It does not turn.", "{center: [0, 1, 0], axis: [0, 0, 1], period: 4}", {.of = "circle", .one_of = "windows|sine|circle"}),
+};
+
+constexpr Field window_fields[] = {
+    row<WindowKeys, &WindowKeys::from>("from", "When the motion starts.", "0.5", {.unit = "s", .range = from_0, .title = "Start"}),
+    row_if_given<WindowKeys, &WindowKeys::until>("until", "When the motion ends. Default: never; of windows that repeat, with their period.", "1.5", {.unit = "s", .range = above_0, .title = "End"}),
+    row<WindowKeys, &WindowKeys::velocity>("velocity", "Its velocity in this window.", "[0, 0.5, 0]", {.unit = "m/s", .needed = true}),
+};
+
+constexpr Field sine_fields[] = {
+    row<SineKeys, &SineKeys::amplitude>("amplitude", "Its place is amplitude sin(360 t / period + phase) away from that in the file.", "[0, 0.02, 0]", {.unit = "m", .needed = true}),
+    row<SineKeys, &SineKeys::period>("period", "Time of one swing back and forth.", "0.1", {.unit = "s", .range = above_0, .needed = true}),
+    row<SineKeys, &SineKeys::phase>("phase", "Angle at time 0. At -90 it starts at rest, at the lowest place of an upward amplitude.", "-90", {.unit = "degrees", .range = {-3600, 3600}}),
+};
+
+constexpr Field circle_fields[] = {
+    row<CircleKeys, &CircleKeys::center>("center", "Point of the axis.", "[0, 1, 0]", {.unit = "m", .needed = true}),
+    row<CircleKeys, &CircleKeys::axis>("axis", "Direction of the axis, any length. Seen against it, the thing goes round to the left.", "[0, 0, 1]", {.type = Type::direction, .needed = true}),
+    row<CircleKeys, &CircleKeys::period>("period", "Time of one turn.", "4", {.unit = "s", .range = above_0, .needed = true}),
 };
 
 constexpr Field plane_fields[] = {
@@ -366,7 +385,10 @@ constexpr Kind kinds_of_scenes[] = {
     {"wall", "a", "A two-sided fixed rectangle.", wall_fields, nullptr, "wall"},
     {"room", "", "Six planes that face inward.", room_fields},
     {"obstacle", "an", "A body that no impact moves.", obstacle_fields, nullptr, "obstacle"},
-    {"motion", "a", "A window of time in which a fixed thing moves.", motion_fields},
+    {"motion", "", "How a fixed thing moves.", motion_fields},
+    {"window", "a", "A window of time in which a fixed thing moves.", window_fields},
+    {"sine", "", "A motion back and forth.", sine_fields},
+    {"circle", "", "A motion round an axis.", circle_fields},
     {"string", "a", "A string without mass that does not stretch: slack while its ends are nearer than its length.",
      string_fields, nullptr, "string"},
     {"region", "a", "A region of space that the centres of bodies enter and leave.", region_fields},

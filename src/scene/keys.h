@@ -107,10 +107,31 @@ struct GroupKeys {
 };
 
 /// A window of time in which a fixed thing moves.
-struct MotionKeys {
+struct WindowKeys {
   double from = 0;          // s
-  double until = infinity;  // s
+  optional<double> until;   // s; none: never, or where the windows repeat
   optional<Vec3> velocity;  // m/s
+};
+
+/// The motion of a fixed thing on a sine.
+struct SineKeys {
+  Vec3 amplitude = Vec3(0, 0, 0);  // m
+  double period = 1;               // s
+  double phase = 0;                // degrees
+};
+
+/// The motion of a fixed thing round an axis.
+struct CircleKeys {
+  Vec3 center = Vec3(0, 0, 0);  // m
+  Vec3 axis = Vec3(0, 1, 0);    // any length
+  double period = 1;            // s
+};
+
+/// How a fixed thing moves, in one of three ways. Its windows are a list.
+struct MotionKeys {
+  optional<double> every;  // s; none: the windows do not repeat
+  optional<SineKeys> sine;
+  optional<CircleKeys> circle;
 };
 
 /// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.

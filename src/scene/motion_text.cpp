@@ -44,9 +44,7 @@ class MotionText {
     for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
       line("wall", center, normal, right, up, half_width, half_height, own);
     for (const auto& [center, shape, own] : obstacles) line("obstacle", center, shape, own);
-    for (size_t fixed = 0; fixed < motions.size(); ++fixed)
-      for (const auto& [from, velocity, start, start_low] : motions[fixed])
-        line("motion", fixed, from, velocity, start, start_low);
+    for (size_t fixed = 0; fixed < motions.size(); ++fixed) write(fixed, motions[fixed]);
 
     for (const Force& force : forces) write(force);
     for (const WorldRegion& region : regions) write(region);
@@ -75,6 +73,13 @@ class MotionText {
     const auto& [position, volume, normal, on, removes, stops] = region;
     line("region", position, volume, normal, removes, stops);
     for (const Entity body : on) line("of", body);
+  }
+
+  void write(size_t fixed, const SurfaceMotion& motion) {
+    const auto& [legs, every, gain, gain_low, swing] = motion;
+    for (const auto& [from, velocity, start, start_low] : legs) line("motion", fixed, from, velocity, start, start_low);
+    if (every < infinity) line("every", fixed, every, gain, gain_low);
+    if (swing) line("swing", fixed, swing->period, swing->middle, swing->sine, swing->cosine);
   }
 
   void write(const Force& force) {

@@ -25,6 +25,13 @@ vector<const Field*> fields_along(string_view path) {
       kind = kind->also != nullptr && word == kind->also->key ? nullptr : kind;
     } else if (kind != nullptr) {
       const Field* field = find_field(*kind, word);
+      // An entry of the list that may stand in place of this map.
+      const string_view plain = fields.empty() ? string_view() : fields.back()->plain;
+      if (field == nullptr && !plain.empty() && word.find_first_not_of("0123456789") == string_view::npos) {
+        fields.push_back(find_field(*kind, plain));
+        kind = fields.back()->held;
+        continue;
+      }
       if (field == nullptr) return {};
       fields.push_back(field);
       name_next = holds_entries(*field);

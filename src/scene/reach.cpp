@@ -77,10 +77,19 @@ class Reach {
   void check_motion(const FixedEntry& entry) {
     const Entity e = inventory_.body_count + entry.first;
     if (!world_.moves(e)) return;
+
     const double end = scene_.simulate.duration;
-    double farthest = fixed_position(world_, e, {end, 0}).cwiseAbs().maxCoeff();
-    for (const MotionLeg& leg : world_.legs(e))
-      if (leg.from < end) farthest = max(farthest, fixed_position(world_, e, {leg.from, 0}).cwiseAbs().maxCoeff());
+    double farthest = 0;
+    for (const double time : farthest_times(world_.motion(e), 0, end))
+      farthest = max(farthest, fixed_position(world_, e, {time, 0}).cwiseAbs().maxCoeff());
+
+    if (const Swing* swing = world_.swing(e); swing != nullptr && !(greatest_speed(*swing) <= largest_speed)) {
+      diagnostics_.add(
+          entry.view.place("motion"),
+          fmt::format("{} moves at up to {} m/s", in_backticks(entry.key->text), shortest(greatest_speed(*swing))),
+          fmt::format("expected at most {:g} m/s: a longer period, or a shorter way", largest_speed));
+      return;
+    }
     check_length(farthest, entry.view.place("motion"), "{} goes as far as {} m from the origin", entry.key->text,
                  "move it less far");
   }

@@ -193,6 +193,11 @@ class Resolver {
     if (view.kind().name == "wall" && view.find("up") == nullptr)
       overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(view, known.mesh, overrides);
+
+    // Windows that do not repeat are a list.
+    const Node* const motion = view.find("motion");
+    if (motion != nullptr && motion->keys.size() == 1 && motion->keys[0].text == "windows")
+      overrides["motion"] = flow_text(motion->items[0]);
     return flow(view, overrides);
   }
 

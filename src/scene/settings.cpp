@@ -94,6 +94,7 @@ class Walk {
     }
 
     const Field* field = find_field(*kind_, step.text);
+    if (field == nullptr && into_plain_list(step)) return true;
     if (field == nullptr) {
       return refuse(step,
                     fmt::format("unknown key {} in {}", in_backticks(step.text),
@@ -178,6 +179,17 @@ class Walk {
       default:
         return refuse(step, fmt::format("{} has no parts", in_backticks(before_)), "end the path before it");
     }
+  }
+
+  /// A step to an entry of the list that may stand in place of this map (Field::plain).
+  bool into_plain_list(const Step& step) {
+    if (field_ == nullptr || field_->plain.empty() || !parse_index(step.text)) return false;
+    Node* const list = node_->find(field_->plain);
+    const Field* const plain = find_field(*kind_, field_->plain);
+    if (list == nullptr || plain->type != Type::list) return false;
+    node_ = list;
+    field_ = plain;
+    return into_list(step);
   }
 
   bool into_list(const Step& step) {

@@ -134,6 +134,8 @@ inline constexpr double drift = 16e-12;
 inline constexpr double first_step = 0.05;
 // Share of that time: an interval in which nothing happens but impacts at one place.
 inline constexpr double moment = 0x1p-22;
+// rad: a swing this near to its turn is there.
+inline constexpr double extreme = 1e-6;
 // Share of a step: precision of the time of a change.
 inline constexpr double time_precision = 0x1p-40;
 // Share of the greatest acceleration: a greater acceleration of a gap is more than rounding.

@@ -294,6 +294,40 @@ TEST(Glb, ACameraThatMovesHasKeyframes) {
   }
 }
 
+TEST(Glb, AThingOnASineIsThereAtItsKeyframesAndNearlySoBetweenThem) {
+  Scene scene = ball_at(Vec3(0, 3, 0));
+  scene.world.obstacles.push_back({{0, 1, 0}, Volume::box({1, 1, 1}), nullopt});
+  scene.world.motions = {motion_on_sine({0, 0.5, 0}, 2, 0)};
+  scene.roster.fixed.push_back({"table"});
+  KeyedMotion motion;
+  for (int i = 0; i < 3; ++i) {
+    motion.times.push_back(i);
+    motion.position.push_back({0, 3, 0});
+  }
+
+  const string file = glb(scene, motion);
+  const Json gltf = json_of(file);
+  size_t node = 0;
+  while (gltf["nodes"][node]["name"] != "table") ++node;
+  vector<float> times, places;
+  for (const Json& channel : gltf["animations"][0]["channels"]) {
+    if (channel["target"]["node"] != node) continue;
+    const Json& sampler = gltf["animations"][0]["samplers"][channel["sampler"].get<size_t>()];
+    times = floats_of(file, gltf, sampler["input"]);
+    places = floats_of(file, gltf, sampler["output"]);
+  }
+
+  ASSERT_GT(times.size(), 70U);
+  ASSERT_EQ(places.size(), 3 * times.size());
+  EXPECT_EQ(times.back(), 2.0F);
+  for (size_t k = 0; k + 1 < times.size(); ++k) {
+    const auto height = [&](double t) { return 1 + 0.5 * std::sin(M_PI * t); };
+    EXPECT_NEAR(places[3 * k + 1], height(times[k]), 1e-6) << k;
+    const double between = 0.5 * (double{places[3 * k + 1]} + double{places[3 * k + 4]});
+    EXPECT_NEAR(between, height(0.5 * (double{times[k]} + double{times[k + 1]})), 1e-3 * 0.5) << k;
+  }
+}
+
 TEST(Glb, ACameraThatStandsStillHasNone) {
   Scene scene = ball_at(Vec3(0, 0, 0));
   KeyedMotion motion;

@@ -156,7 +156,7 @@ let: {r: 0.1, two: 2}
 measures: {top: max(balls.red.y_m), twice: "= 2 * top"}
 restitution: {default: 0.9, combine: minimum, pairs: [{between: [red, blue], value: 0.5}]}
 planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
-walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}
+walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: {every: 2, windows: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}}
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
         color: crimson, mesh: {file: box.stl, scale: 0.001, up: z, turn: [30, 0, 0]}}
@@ -179,9 +179,9 @@ bodies:
   ball: {radius: 0.5, position: [-3, 3, 0]}
 obstacles:
   post: {cylinder: {radius: 0.1, height: 1}, position: [0, -3, 0], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}
-  edge: {box: [1, 1, 1], position: [3, -3, 0], visible: false, restitution: 0.5}
+  edge: {box: [1, 1, 1], position: [3, -3, 0], visible: false, restitution: 0.5, motion: {sine: {amplitude: [0, 0.1, 0], period: 1, phase: 30}}}
   rock: {fit: box, mesh: box.stl, position: [6, -3, 0], color: tan}
-  globe: {radius: 0.5, position: [-3, -3, 0]}
+  globe: {radius: 0.5, position: [-3, -3, 0], motion: {circle: {center: [-3, -4, 0], axis: [0, 0, 1], period: 2}}}
 simulate: {duration: 1}
 )",
     R"(

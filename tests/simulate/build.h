@@ -51,7 +51,11 @@ struct Problem {
   /// Lets a fixed thing move. All of them must be there.
   void move(Entity fixed, const vector<MotionWindow>& windows) {
     world.motions.resize(world.fixed_count());
-    world.motions[fixed - world.body_count()] = legs_of(windows);
+    world.motions[fixed - world.body_count()] = motion_in_windows(windows);
+  }
+  void move(Entity fixed, SurfaceMotion motion) {
+    world.motions.resize(world.fixed_count());
+    world.motions[fixed - world.body_count()] = std::move(motion);
   }
   void room(const Vec3& min, const Vec3& max) {
     for (int k = 0; k < 3; ++k) {

@@ -179,7 +179,7 @@ void Maker::motions(World& world, double duration, double speed) {
     }
 
     world.motions.resize(world.fixed_count());
-    world.motions[e - world.body_count()] = legs_of(windows);
+    world.motions[e - world.body_count()] = motion_in_windows(windows);
   }
 }
 

@@ -29,8 +29,8 @@ void each_vector(World& world, State& state, const F& f) {
   for (Obstacle& o : world.obstacles) f(o.center);
   for (WorldRegion& r : world.regions) f(r.position), f(r.normal);
   for (String& s : world.strings) f(s.anchor);
-  for (vector<MotionLeg>& legs : world.motions)
-    for (MotionLeg& leg : legs) f(leg.velocity), f(leg.start), f(leg.start_low);
+  for (SurfaceMotion& motion : world.motions)
+    for (MotionLeg& leg : motion.legs) f(leg.velocity), f(leg.start), f(leg.start_low);
 
   for (Force& force : world.forces) {
     if (auto* uniform = std::get_if<UniformForce>(&force.law)) f(uniform->force);
@@ -120,8 +120,8 @@ inline void scale(World& world, State& state, double& duration, double& rest_spe
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
   for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
   for (String& s : world.strings) s.anchor *= l, s.length *= l;
-  for (vector<MotionLeg>& legs : world.motions)
-    for (MotionLeg& leg : legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
+  for (SurfaceMotion& motion : world.motions)
+    for (MotionLeg& leg : motion.legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
 
   scale(world.forces, l, t, kg);
   scale_couplings(world, l, t, kg);

@@ -79,8 +79,8 @@ vector<double> sample_times(const RandomScene& scene, const vector<Collision>& r
   for (const Force& f : scene.world.forces)
     for (const double t : {f.from, f.until})
       if (t > 0 && t < duration) about(t);
-  for (const vector<MotionLeg>& legs : scene.world.motions)
-    for (const MotionLeg& leg : legs)
+  for (const SurfaceMotion& motion : scene.world.motions)
+    for (const MotionLeg& leg : motion.legs)
       if (leg.from > 0 && leg.from < duration) about(leg.from);
 
   times.erase(std::remove_if(times.begin(), times.end(), [&](double t) { return !(t >= 0 && t <= duration); }),

@@ -70,7 +70,7 @@ string bodies(const RandomScene& scene) {
 
 string motion(const World& world, Entity e) {
   if (!world.moves(e)) return "";
-  const vector<MotionLeg>& legs = world.legs(e);
+  const vector<MotionLeg>& legs = world.motion(e).legs;
   string list;
   for (size_t k = 0; k < legs.size(); ++k) {
     if (legs[k].velocity.isZero(0)) continue;

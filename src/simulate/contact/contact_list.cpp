@@ -75,7 +75,7 @@ void ContactList::drop_hidden(const ExactBodies& bodies, const Vec3& x, size_t f
   const auto hides = [&](size_t floor, size_t c) {
     const Vec3& n = pairs[floor].normal;
     if (floor == c || !flat(floor) || (flat(c) && (pairs[c].normal - n).norm() <= exact_tolerance::level)) return false;
-    return bodies.hidden(names[c].i, x, names[c].e, -n, bodies.fixed_velocity(names[floor].e));
+    return bodies.hidden(names[c].i, x, names[c].e, -n, names[floor].e);
   };
 
   vector<size_t> hidden;

@@ -55,9 +55,9 @@ struct ExactBodies : BodyPaths {
     return end;
   }
   /// Whether body i cannot strike a fixed thing, because it lies behind a flat surface of normal n, towards the body,
-  /// that moves at this velocity (m/s) and carries the body. A thing that comes out of the surface is not hidden.
-  bool hidden(Entity i, const Vec3& x, Entity fixed, const Vec3& n, const Vec3& velocity) const {
-    if (moving.any() && n.dot(moving.velocity(fixed, now) - velocity) > 0) return false;
+  /// that carries the body. A thing that comes out of the surface is not hidden.
+  bool hidden(Entity i, const Vec3& x, Entity fixed, const Vec3& n, Entity surface) const {
+    if (moving.any() && moving.comes_out(fixed, surface, n, now)) return false;
     return lies_behind(world, i, x, fixed, fixed_position(fixed), n);
   }
 

@@ -346,7 +346,7 @@ void ExactGroup::forget_forces(Entity i) {
 
 bool ExactGroup::hides(Entity i, Entity fixed) const {
   return any_of(member[i].floors, [&](const Floor& floor) {
-    return bodies_.hidden(i, bodies_.position(i), fixed, floor.normal, floor.velocity);
+    return bodies_.hidden(i, bodies_.position(i), fixed, floor.normal, floor.surface);
   });
 }
 

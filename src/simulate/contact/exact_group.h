@@ -25,10 +25,10 @@ struct PressingContact {
 
 /// A flat fixed thing that carries a body.
 struct Floor {
-  Vec3 normal;    // towards the body
-  Vec3 velocity;  // m/s
+  Vec3 normal;  // towards the body
+  Entity surface;
 
-  void keep(auto& archive) { archive(normal, velocity); }
+  void keep(auto& archive) { archive(normal, surface); }
 };
 
 /// What an island keeps of a member from step to step.

@@ -89,9 +89,7 @@ bool FlatContacts::carries(Entity i, Entity surface) const {
 bool FlatContacts::hides(Entity i, Entity fixed) const {
   const FlatContactList& contacts = contacts_[i];
   for (size_t k = 0; k < contacts.count; ++k)
-    if (bodies_.hidden(i, bodies_.position(i), fixed, contacts.at[k].normal,
-                       bodies_.fixed_velocity(contacts.at[k].surface)))
-      return true;
+    if (bodies_.hidden(i, bodies_.position(i), fixed, contacts.at[k].normal, contacts.at[k].surface)) return true;
   return false;
 }
 
@@ -126,7 +124,7 @@ FlightOrigin FlatContacts::hand_over(Entity i, Entity surface) {
   FlatContact next{no_entity, 0, normal, false, bodies_.now, 0};
   double longest = -1;
   for (const Entity e : bodies_.neighbours_of(i)) {
-    if (world.is_body(e) || e == surface || carries(i, e)) continue;
+    if (world.is_body(e) || e == surface || carries(i, e) || world.swing(e) != nullptr) continue;
     const Vec3 point = bodies_.fixed_position(e);
     const Vec3 u = bodies_.fixed_velocity(e);
     const Touch level = touch(world, i, there, e, point);
@@ -192,7 +190,7 @@ void FlatContacts::find_initial(Entity i) {
 
   Flight f = bodies_.flights[i];
   for (const Entity e : bodies_.neighbours_of(i)) {
-    if (world.is_body(e) || contacts_[i].count == most) continue;
+    if (world.is_body(e) || world.swing(e) != nullptr || contacts_[i].count == most) continue;
     const Vec3 point = bodies_.fixed_position(e);
     const Vec3 u = bodies_.fixed_velocity(e);
     const Touch there = touch(world, i, f.x, e, point);
@@ -368,7 +366,7 @@ vector<FlatContacts::SurfaceForce> FlatContacts::surfaces_below(Entity i) const 
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity(i);
   for (const Entity e : bodies_.neighbours_of(i)) {
-    if (world.is_body(e) || carries(i, e)) continue;
+    if (world.is_body(e) || carries(i, e) || world.swing(e) != nullptr) continue;
     const Vec3 point = bodies_.fixed_position(e);
     const Vec3 u = bodies_.fixed_velocity(e);
     const Touch there = touch(world, i, x, e, point);

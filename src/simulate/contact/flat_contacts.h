@@ -3,8 +3,8 @@
 // flights. After an impact that leaves the speed u, they end 2u / (p (1 - e)) later. Here p is the acceleration that
 // presses the body on. The body is put to rest when that time is less than the clock resolves, or when the impact is
 // slower than rest_speed. It then moves in the surface, the reaction reduces its acceleration, and its path is a
-// parabola again. Contact of any other kind, with a body, an edge, a corner or a round thing, has no such path. Such
-// bodies join islands (exact_group.h).
+// parabola again. Contact of any other kind, with a body, an edge, a corner, a round thing or one that swings, has no
+// such path. Such bodies join islands (exact_group.h).
 
 #include "physics/contact_force.h"
 #include "simulate/contact/exact_bodies.h"

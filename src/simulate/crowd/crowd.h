@@ -37,7 +37,7 @@ struct CrowdStep {
   bool valid = true;           // places and drifts are those of the bodies
   bool solved = true;          // its forces are as accurate as they should be
   double kinetic = 0;          // J, at its start
-  double next_switch = 0;      // s, of forces on members, and of things that move
+  Instant next_switch;         // of forces on members, and of things that move
   double speed = 0;            // m/s, of pairs that press on each other
   double shell = 0;            // m, that contacts keep
   int waits = 0;               // steps to come in which missing gaps do not return

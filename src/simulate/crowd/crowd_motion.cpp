@@ -41,7 +41,7 @@ bool CrowdMotion::advance(Entity i) {
     }
 
     Crowd& crowd = gather(island);
-    if (Instant{crowd.step.next_switch, 0} <= bodies_.now || bodies_.varying || bodies_.couplings.any())
+    if (crowd.step.next_switch <= bodies_.now || bodies_.varying || bodies_.couplings.any())
       renew_forces(crowd);
     // Nothing touches bodies that forces alone hold together.
     if (crowd.step.coupled.any() && all_of(crowd.idle, [](uint8_t steps) { return steps >= tol::idle_steps; })) {
@@ -291,12 +291,12 @@ void CrowdMotion::add_member(Crowd& crowd, size_t k, bool comes) {
 /// Finds the forces on all members, the greatest of them, and when they change.
 void CrowdMotion::renew_forces(Crowd& crowd) const {
   crowd.load = 0;
-  crowd.step.next_switch = bodies_.moving.any() ? bodies_.moving.next_switch(bodies_.now.floor()) : never;
+  crowd.step.next_switch = bodies_.moving.next_switch(bodies_.now);
   for (size_t k = 0; k < crowd.members.size(); ++k) {
     const Entity i = crowd.members[k];
     if (bodies_.forced) {
       bodies_.apply_forces(i, crowd.position(k), crowd.velocity(k, crowd.lag[k]));
-      crowd.step.next_switch = min(crowd.step.next_switch, bodies_.next_switch(i, bodies_.now.floor()));
+      crowd.step.next_switch = min(crowd.step.next_switch, Instant{bodies_.next_switch(i, bodies_.now.floor()), 0});
     }
   }
 
@@ -337,8 +337,15 @@ double CrowdMotion::longest_step(const Crowd& crowd) const {
         if (rate > 0) length = min(length, quality_.longest_step / rate);
       }
   if (crowd.step.coupling_rate > 0) length = min(length, quality_.longest_step / crowd.step.coupling_rate);
+
+  // Things that swing turn and speed up as forces do.
+  if (bodies_.moving.any())
+    for (const Entity e : crowd.things)
+      if (const Swing* swing = bodies_.world.swing(e))
+        length = min({length, quality_.longest_step / turning_rate(*swing),
+                      quality_.longest_step * sqrt(2 * crowd.smallest / greatest_acceleration(*swing))});
   length = min(length, tol::step_growth * crowd.step.last_length);
-  return min(length, Instant{crowd.step.next_switch, 0} - bodies_.now);
+  return min(length, crowd.step.next_switch - bodies_.now);
 }
 
 /// Lets bodies join that a member may meet before the list is made anew. Returns whether there are some.
@@ -512,13 +519,14 @@ bool CrowdMotion::split(Crowd& crowd) {
   return true;
 }
 
-/// Moves the things that move to their present places.
+/// Moves the things that move to their present places. Those that swing drift to where they are at the step's end.
 void CrowdMotion::move_things(Crowd& crowd) const {
   for (size_t k = 0; k < crowd.things.size(); ++k) {
     if (!bodies_.world.moves(crowd.things[k])) continue;
     crowd.x[crowd.members.size() + k] = four_of(bodies_.fixed_position(crowd.things[k]), 0);
     crowd.v[crowd.members.size() + k] = four_of(bodies_.fixed_velocity(crowd.things[k]), 0);
   }
+  steps_.drift_things(crowd);
 }
 
 /// Solves the step. False: other bodies take part, or it needs a longer list.
@@ -534,7 +542,7 @@ void CrowdMotion::begin(Crowd& crowd) {
   crowd.step.start = bodies_.now;
   crowd.step.end = bodies_.now + crowd.step.length;
   // Rounding must not leave a step of nothing before a switch.
-  if (crowd.step.end.hi >= crowd.step.next_switch) crowd.step.end = {crowd.step.next_switch, 0};
+  if (crowd.step.next_switch.hi <= crowd.step.end.hi) crowd.step.end = crowd.step.next_switch;
   crowd.step.open = true;
   bodies_.islands.of(crowd.members.front()).end = crowd.step.end;
   flights_.note_changed(crowd.members.front());

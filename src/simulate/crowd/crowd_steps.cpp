@@ -28,8 +28,8 @@ bool CrowdSteps::solve(Crowd& crowd) {
       safe = safe_length(crowd);
     }
     if (safe >= crowd.step.length || tries == tol::most_shortenings) break;
-    shorten(crowd, max(safe, 0.25 * crowd.step.length));
     crowd.v = before_;
+    shorten(crowd, max(safe, 0.25 * crowd.step.length));
     restart_if_short(crowd);
     before_ = crowd.v;
   }
@@ -43,12 +43,23 @@ bool CrowdSteps::solve(Crowd& crowd) {
 }
 
 /// Lets the step end sooner (s). What it restores of missing gaps is less too: the return must not be faster.
-void CrowdSteps::shorten(Crowd& crowd, double length) {
+void CrowdSteps::shorten(Crowd& crowd, double length) const {
   if (!(length < crowd.step.length)) return;
   const double share = length / crowd.step.length;
   for (RowGroup& group : crowd.rows.hot)
     for (double& base : group.base) base *= base < 0 ? share : 1;
   crowd.step.length = length;
+  drift_things(crowd);
+}
+
+void CrowdSteps::drift_things(Crowd& crowd) const {
+  if (!bodies_.moving.any()) return;
+  const Instant end = bodies_.now + crowd.step.length;
+  for (size_t k = 0; k < crowd.things.size(); ++k) {
+    if (bodies_.world.swing(crowd.things[k]) == nullptr) continue;
+    const Vec3 way = bodies_.fixed_position(crowd.things[k], end) - bodies_.fixed_position(crowd.things[k]);
+    crowd.v[crowd.movable() + k] = four_of(way / (end - bodies_.now), 0);
+  }
 }
 
 /// The longest step that the velocities of this instant allow (s). Impacts have made some of them greater.

@@ -21,6 +21,8 @@ class CrowdSteps {
   /// Solves the step of a crowd whose gaps are measured, and shortens it where that is necessary. False: a body has
   /// become too fast for the list. Drifts then have the impacts alone.
   bool solve(Crowd& crowd);
+  /// Gives things that swing the velocities that take them to their places at the step's end.
+  void drift_things(Crowd& crowd) const;
   /// Finds the forces of rows in the solved step, the accelerations of members, and which of them are pressed.
   void finish(Crowd& crowd);
   /// What contact lends of member k's kinetic energy when its drift is so old (s), and gives back as its force falls
@@ -55,7 +57,7 @@ class CrowdSteps {
   double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
   bool balance(Crowd& crowd);
-  static void shorten(Crowd& crowd, double length);
+  void shorten(Crowd& crowd, double length) const;
   double longest(const Crowd& crowd) const;
   void start_warm(Crowd& crowd);
   static bool give_up_returns(Crowd& crowd);

@@ -148,9 +148,18 @@ FixedImpact ImpactRules::find_fixed(Entity i, Entity surface, uint8_t feature) c
     pull = without.u.dot(n) + flat_.drag_along(i, n, surface);
   }
 
-  return {i,        surface,    feature, flat,  f.start == bodies_.now,
-          x,        v,          u,       there, pair_restitution(world, i, surface),
-          approach, pull - bend};
+  return {i,
+          surface,
+          feature,
+          flat,
+          f.start == bodies_.now,
+          x,
+          v,
+          u,
+          there,
+          pair_restitution(world, i, surface),
+          approach,
+          pull - bend - n.dot(bodies_.fixed_acceleration(surface, bodies_.now))};
 }
 
 bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact) const {
@@ -164,7 +173,8 @@ bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact)
   if (carrying > 0 && flat && carrying < FlatContactList::most && !in_lasting_contact(bodies_.mode(i)) && e <= 1 &&
       weight > 0 &&
       approach * approach <
-          weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i])) {
+          weight * exact_tolerance::position_rounding * (x.cwiseAbs().sum() + bodies_.world.radius[i]) &&
+      bodies_.world.swing(surface) == nullptr) {
     contact.residual_speed = 0;
     contact.rest_time = bodies_.now;
     return true;
@@ -176,6 +186,7 @@ bool ImpactRules::comes_to_rest(const FixedImpact& impact, FlatContact& contact)
                     (e == 1 && (bodies_.too_low(x, approach, press) || bodies_.hops_fade(i, approach, press)));
   if (!(press > 0) || !flat || in_lasting_contact(bodies_.mode(i)) || carrying >= FlatContactList::most || !ends)
     return false;
+  if (bodies_.world.swing(surface) != nullptr) return false;
 
   const double left = separation == 0 || e == 1 ? 0 : 2 * separation / (press * (1 - e));
   // The body does not hop on this surface alone. Other bodies, or the surfaces that carry it, throw it back at once.
@@ -192,13 +203,14 @@ bool ImpactRules::over_at_once(const FixedImpact& impact, double left) const {
 
 bool ImpactRules::ends(const FixedImpact& impact, bool again) {
   const auto& [i, surface, feature, flat, began_now, x, v, u, there, e, approach, press] = impact;
-  if (approach == 0 && bodies_.path_bends(i)) return true;
+  if (approach == 0 && (bodies_.path_bends(i) || bodies_.world.swing(surface) != nullptr)) return true;
   const bool alone = flat && !collapses_.among_bodies(i);
   const double held = holding(press, i, surface);
   if (collapses_.count_impact(i, surface, e, approach, held, bodies_.world.radius[i], alone, again)) return true;
   const double separation = e * approach;
   if (!(press > 0)) return false;
-  if (flat && (bodies_.bent[i] || bodies_.is_coupled(i)) && !bodies_.in_contact(i) && e < 1)
+  const bool curves = bodies_.bent[i] || bodies_.is_coupled(i) || bodies_.world.swing(surface) != nullptr;
+  if (flat && curves && !bodies_.in_contact(i) && e < 1)
     return over_at_once(impact, 2 * separation / (press * (1 - e)));
   if (e == 1 && bodies_.hops_fade(i, separation, press)) return true;
   return (!flat || in_lasting_contact(bodies_.mode(i))) && (separation == 0 || bodies_.too_low(x, separation, press));
@@ -207,7 +219,6 @@ bool ImpactRules::ends(const FixedImpact& impact, bool again) {
 void ImpactRules::check_room(const FixedImpact& impact) const {
   const World& world = bodies_.world;
   const Vec3& n = impact.there.normal;
-  const double until = min(bodies_.moving.next_switch(bodies_.now.floor()), bodies_.options.duration);
   const Entity i = impact.body;
 
   for (const Entity e : bodies_.neighbours_of(i)) {
@@ -220,9 +231,17 @@ void ImpactRules::check_room(const FixedImpact& impact) const {
     const double closing = n.dot(u - impact.u);
     if (opposite.gap > exact_tolerance::least_gap * world.radius[i] || !(closing > 0)) continue;
 
+    // Faces that slow down in time leave room.
+    const double slowing =
+        -n.dot(bodies_.fixed_acceleration(e, bodies_.now) - bodies_.fixed_acceleration(impact.surface, bodies_.now));
+    if (closing * closing < 2 * slowing * opposite.gap) continue;
+
     // The room ends before the run, a change of motion and the rim of the surface.
     const double left = opposite.gap / closing;
-    if (bodies_.now.hi + left > until) continue;
+    const Instant until =
+        min({bodies_.moving.next_switch(e, bodies_.now), bodies_.moving.next_switch(impact.surface, bodies_.now),
+             Instant{bodies_.options.duration, 0}});
+    if (until < bodies_.now + left) continue;
     const RelativeMotion along{point - impact.x, u - impact.v, Vec3::Zero(), impact.v.norm(), true};
     if (leave_feature(world, i, e, opposite.feature, along, left).time < never) continue;
     bodies_.fail_squeezed(i, {impact.surface, e});

@@ -185,7 +185,7 @@ void ConstrainedMotion::note_contacts(const IslandStep& step) {
     if (!(p.force > 0 || p.bilateral)) continue;
     group_.pressing.write(i).push_back({e, p.force, p.surface});
     if (!bodies_.world.is_body(e) && is_flat(bodies_.world, i, e, feature))
-      group_.member.write(i).floors.push_back({-p.normal, bodies_.fixed_velocity(e)});
+      group_.member.write(i).floors.push_back({-p.normal, e});
   }
 
   // What accrues along a path is integrated at its end.
@@ -293,6 +293,7 @@ void ConstrainedMotion::report(const Island& island, double time, vector<Contact
       const Touch there = touch(world, i, step.x[k], e, xe);
       const double bend = bending(world, i, step.x[k], e, xe, there, step.velocity_of(bodies_, e) - step.v[k]);
       pairs.push_back({k, other, there.normal, -bend});
+      if (other == Numbering::none) pairs.back().target -= there.normal.dot(bodies_.fixed_acceleration(e, step.at));
       pairs.back().bilateral = world.is_string(e) && world.string(e).rod;
       names.emplace_back(i, e);
     }

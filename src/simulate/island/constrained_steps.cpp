@@ -48,17 +48,26 @@ double ConstrainedSteps::share_of_errors() const {
   return min(1.0, bodies_.options.step_error / tol::step_error);
 }
 
+/// What pressed on a thing that swings keeps to its path, which has no error: gaps are closed there, too.
 void ConstrainedSteps::close_overlaps(IslandStep& step) const {
   bool overlap = false;
-  for (size_t c = 0; c < step.contacts.pairs.size(); ++c) {
-    const ContactConstraint& p = step.contacts.pairs[c];
+  vector<ContactConstraint> rows = step.contacts.pairs;
+  for (size_t c = 0; c < rows.size(); ++c) {
+    ContactConstraint& p = rows[c];
+    const auto& [i, e, feature] = step.contacts.names[c];
+    const double least = tol::least_overlap * bodies_.world.radius[i];
+    if (bodies_.world.swing(e) != nullptr && group_.pressing_force(i, e) > 0) {
+      p.bilateral = true;
+      p.slack = least;
+    }
+
     const double closes = p.bilateral ? std::abs(p.target) : p.target;
-    overlap = overlap || closes > tol::least_overlap * bodies_.world.radius[step.contacts.names[c].i];
+    overlap = overlap || closes > least;
   }
   if (!overlap) return;
 
   vector<Vec3> displacement(step.x.size(), Vec3::Zero());  // m
-  step.bookings.solutions.push_back(solve({step.inverse_mass, displacement, step.contacts.pairs}));
+  step.bookings.solutions.push_back(solve({step.inverse_mass, displacement, rows}));
   for (size_t k = 0; k < step.x.size(); ++k) step.x[k] += displacement[k];
 }
 
@@ -415,7 +424,8 @@ void ConstrainedSteps::find_pressed(IslandStep& step) const {
       continue;
     }
 
-    if (!is_flat(world, i, e, feature) || bodies_.bent[i] || fate.flats.count == FlatContactList::most) {
+    if (!is_flat(world, i, e, feature) || bodies_.bent[i] || world.swing(e) != nullptr ||
+        fate.flats.count == FlatContactList::most) {
       fate.bound = true;
       continue;
     }

@@ -9,6 +9,7 @@
 #include "numerics/cube_root.h"
 #include "numerics/disjoint_sets.h"
 #include "numerics/dormand_prince.h"
+#include "numerics/elementary.h"
 #include "numerics/gauss.h"
 #include "numerics/radau_collocation.h"
 #include "physics/closed_motion.h"
@@ -106,7 +107,42 @@ ConstrainedSystem::ConstrainedSystem(const World& world, double time, vector<Ent
 }
 
 void ConstrainedSystem::add_moving(Entity e, const Vec3& x, const Vec3& v) {
-  if (carrier_of(e) == nullptr) carriers_.push_back({e, x, v});
+  if (carrier_of(e) != nullptr) return;
+  carriers_.push_back({e, x, v});
+  const Swing* const swing = world_.swing(e);
+  if (swing == nullptr) return;
+  Carrier& carrier = carriers_.back();
+  carrier.rate = turning_rate(*swing);
+  carrier.greatest = greatest_acceleration(*swing);
+  carrier.middle = world_.fixed_position(e) + swing->middle;
+}
+
+/// The greatest acceleration of a thing that swings (m/s^2).
+double ConstrainedSystem::greatest_swing() const {
+  double greatest = 0;
+  for (const Carrier& carrier : carriers_) greatest = max(greatest, carrier.greatest);
+  return greatest;
+}
+
+/// The time (s) until the acceleration of a thing that swings is the greatest or least along the normal of a contact. A
+/// contact that it opens for a moment is open then, so that a step which ends there shows it.
+double ConstrainedSystem::to_extreme() const {
+  double first = never;
+  const auto take = [&](const vector<Contact>& contacts, const vector<ContactConstraint>& rows) {
+    for (size_t c = 0; c < contacts.size(); ++c) {
+      const Carrier* const carrier = carrier_of(rows[c], contacts[c].e);
+      if (carrier == nullptr || carrier->rate == 0) continue;
+      // out cos(rate t) + speed sin(rate t) is the greatest at this angle, and the least half a turn later.
+      const double out = carrier->rate * rows[c].normal.dot(carrier->x - carrier->middle);
+      const double speed = rows[c].normal.dot(carrier->v);
+      double angle = arc_tangent(speed, out);
+      while (angle < tol::extreme) angle += 3.14159265358979323846;
+      first = min(first, angle / carrier->rate);
+    }
+  };
+  take(closed_, rows_);
+  take(opened_, opened_rows_);
+  return first;
 }
 
 const ConstrainedSystem::Carrier* ConstrainedSystem::carrier_of(Entity e) const {
@@ -150,7 +186,7 @@ vector<Vec3> ConstrainedSystem::forces_at(const vector<Vec3>& x, const vector<Ve
 
   for (size_t k = 0; k < v.size(); ++k) {
     if (k >= applied_.size()) {
-      a.push_back(Vec3::Zero());
+      a.push_back(carriers_[k - applied_.size()].acceleration(x[k]));
       continue;
     }
 
@@ -184,8 +220,9 @@ Vec3 ConstrainedSystem::place_of(const vector<Vec3>& x, uint32_t b, Entity e) co
 }
 
 Vec3 ConstrainedSystem::relative_velocity(const vector<Vec3>& v, const ContactConstraint& row, Entity e) const {
-  const Carrier* const carrier = row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
-  return carrier == nullptr ? relative(v, row) : Vec3(carrier->v - v[row.a]);
+  const Carrier* const carrier = carrier_of(row, e);
+  if (carrier == nullptr) return relative(v, row);
+  return (v.size() > members_.size() ? v[place_of_carrier(*carrier)] : carrier->v) - v[row.a];
 }
 
 /// The displacement of a contact's second thing relative to the first since the start (m).
@@ -212,15 +249,24 @@ vector<Vec3> ConstrainedSystem::solve_rows(const vector<Vec3>& x, const vector<V
   bool rods = false;
   for (size_t c = 0; c < rows.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
-    if (is_flat(world_, i, e, feature)) continue;
-
     ContactConstraint& row = rows[c];
+    const Carrier* const carrier = carrier_of(row, e);
+    const bool swings = carrier != nullptr && carrier->rate > 0;
+    const bool flat = is_flat(world_, i, e, feature);
+    if (flat && !swings) continue;
+
     const Vec3 xe = place_of(x, row.b, e);
+    const Vec3 lead = swings ? carrier->acceleration(xe) : Vec3(Vec3::Zero());
+    if (flat) {
+      row.target = -row.normal.dot(lead);
+      continue;
+    }
+
     // Also beyond its rim.
     const Touch there = touch(world_, i, x[row.a], e, xe, feature);
     row.normal = there.normal;
     if (is_rod(world_, e)) rods = true;
-    row.target = -bending(world_, i, x[row.a], e, xe, there, relative_velocity(v, row, e));
+    row.target = -bending(world_, i, x[row.a], e, xe, there, relative_velocity(v, row, e)) - row.normal.dot(lead);
   }
 
   if (rods) allow_contradictions(a, rows);
@@ -293,7 +339,7 @@ ConstrainedSystem::Scales ConstrainedSystem::scales(const vector<Vec3>& x, const
   for (const Entity i : members_) s.length = min(s.length, world_.radius[i]);
   for (const Vec3& at : x) farthest = max(farthest, at.cwiseAbs().maxCoeff());
 
-  s.acceleration = greatest_norm(forces_at(x, v));
+  s.acceleration = max(greatest_norm(forces_at(x, v)), greatest_swing());
   for (const ContactConstraint& row : rows_) s.acceleration = max(s.acceleration, std::abs(row.target));
   s.speed = max(relative_speed(v), sqrt(s.acceleration * s.length));
 
@@ -357,6 +403,7 @@ double ConstrainedSystem::turning_time(double load, double bend, double w, doubl
 /// The gap's third derivative is about 3 w . a / bend, its fourth 3 a . a / bend. For this time they move the body off
 /// the parabola by less than the method's error. The forces keep their direction meanwhile.
 double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3>& v, const vector<Vec3>& a) const {
+  if (any_swings()) return 0;
   double h = never;
   const double fade = max(common_fade(), 0.0);
   const vector<double> roundings = place_roundings(x, v, a);
@@ -429,8 +476,10 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
     left = min(left, left_of_speed(world_, i, time_, x[k], v[k]));
   }
 
+  for (const Carrier& carrier : carriers_) take(carrier.rate, 0, 0);
+
   // The speed that the motion reaches, from rest, before accelerations change.
-  const double pull = greatest_norm(a);
+  const double pull = max(greatest_norm(a), greatest_swing());
   double gained = sqrt(pull * width);
   if (rate > 0) gained = min(gained, pull / rate);
   if (const double fade = greatest_fade(); fade > 0) gained = min(gained, pull / fade);
@@ -493,9 +542,10 @@ ConstrainedSystem::Followed ConstrainedSystem::follow(const vector<Vec3>& x, con
   held_ = rows_;
   for (ContactConstraint& row : held_) row.bilateral = row.bilateral || row.independent > 0;
   allowed_ = allowed_errors(x, v, a);
-  const double h = min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a)});
+  const double h =
+      min({first > 0 ? first : tol::first_step * scales_.time(), longest, within_reach(x, v, a), to_extreme()});
   // Where drag decays within the step that its stability allows, an implicit method takes longer steps.
-  if (greatest_fade() * h > 1 && !any_bent())
+  if (greatest_fade() * h > 1 && !any_bent() && !any_swings())
     if (Followed followed = follow_stiff(x, v, h); followed.motion) return followed;
   return follow_smooth(x, v, a, h);
 }
@@ -518,7 +568,7 @@ ConstrainedSystem::Followed ConstrainedSystem::follow_smooth(const vector<Vec3>&
 
   Followed followed;
   vector<Vec3> start = a;
-  start.resize(a.size() + carriers_.size(), Vec3::Zero());
+  for (const Carrier& carrier : carriers_) start.push_back(carrier.acceleration(carrier.x));
   auto motion =
       make_unique<DormandPrince>(with_carriers(x, &Carrier::x), with_carriers(v, &Carrier::v), std::move(start));
 
@@ -646,7 +696,7 @@ double ConstrainedSystem::work(const DenseMotion& motion, double length) const {
     double power = 0;
     for (size_t c = 0; c < rows.size(); ++c)
       if (const Carrier* carrier = carrier_of(closed_[c].e); carrier != nullptr && !left_[rows[c].a])
-        power -= rows[c].force * rows[c].normal.dot(carrier->v);
+        power -= rows[c].force * rows[c].normal.dot(v[place_of_carrier(*carrier)]);
     work += point.weight * length * power;
   }
 

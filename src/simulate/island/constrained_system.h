@@ -47,6 +47,10 @@ class ConstrainedSystem {
   void add_moving(Entity e, const Vec3& x, const Vec3& v);
   /// Sets the forces between members, which have those numbers.
   void couple(CoupledForces forces) { couplings_ = std::move(forces); }
+  /// Whether one of them swings: no motion in contact with it is a parabola.
+  bool any_swings() const {
+    return any_of(carriers_, [](const Carrier& carrier) { return carrier.rate > 0; });
+  }
   /// Whether such things, or such forces, do work on the members.
   bool works() const { return !carriers_.empty() || couplings_.any(); }
   /// Leaves member number k out of that work, because it does not take part in the motion.
@@ -110,13 +114,19 @@ class ConstrainedSystem {
   }
 
  private:
-  /// A fixed thing that moves. In a motion that is followed it is one more point, after the members.
+  /// A fixed thing that moves. In a motion that is followed it is one more point, after the members. Where it swings,
+  /// its acceleration is -rate^2 (x - middle).
   struct Carrier {
     Entity thing;
-    Vec3 x;  // m, at the start
-    Vec3 v;  // m/s, at the start
+    Vec3 x;                      // m, at the start
+    Vec3 v;                      // m/s, at the start
+    double rate = 0;             // rad/s
+    double greatest = 0;         // m/s^2, its acceleration at most
+    Vec3 middle = Vec3::Zero();  // m
 
-    void keep(auto& archive) { archive(thing, x, v); }
+    Vec3 acceleration(const Vec3& at) const { return -(rate * rate) * (at - middle); }
+
+    void keep(auto& archive) { archive(thing, x, v, rate, greatest, middle); }
   };
 
   /// The errors of a step that are allowed: of positions (m) and of velocities (m/s).
@@ -132,6 +142,11 @@ class ConstrainedSystem {
   size_t place_of_carrier(const Carrier& carrier) const {
     return members_.size() + size_t(&carrier - carriers_.data());
   }
+  const Carrier* carrier_of(const ContactConstraint& row, Entity e) const {
+    return row.b == ContactConstraint::fixed ? carrier_of(e) : nullptr;
+  }
+  double greatest_swing() const;
+  double to_extreme() const;
   vector<Vec3> with_carriers(vector<Vec3> of_members, Vec3 Carrier::*of_carrier) const;
   Vec3 relative_velocity(const vector<Vec3>& v, const ContactConstraint& row, Entity e) const;
   Vec3 moved(const DenseMotion& motion, const vector<Vec3>& x, const ContactConstraint& row, Entity e) const;

@@ -71,7 +71,13 @@ double ContactSearch::load_of(const IslandStep& step) const {
   const Vec3 common = held ? Vec3(Vec3::Zero()) : step.applied[0];
   double greatest = 0;
   for (const Vec3& pull : step.applied) greatest = max(greatest, (pull - common).norm());
-  return greatest;
+  if (!bodies_.moving.any()) return greatest;
+
+  // What swings presses by its own acceleration, too.
+  double swings = 0;
+  for (const Contact& name : step.contacts.names)
+    if (const Swing* swing = bodies_.world.swing(name.e)) swings = max(swings, greatest_acceleration(*swing));
+  return greatest + swings;
 }
 
 /// The speeds below which approaches are no impacts of their own, by the forces that pressed pairs together last.

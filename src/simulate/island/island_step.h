@@ -160,7 +160,7 @@ struct IslandStep {
   }
   Vec3 pull_of(const ExactBodies& bodies, Entity thing) const {
     const Entity body = bodies.world.second_body(thing);
-    return body != no_entity ? a[members.number(body)] : Vec3(Vec3::Zero());
+    return body != no_entity ? a[members.number(body)] : bodies.fixed_acceleration(thing, at);
   }
   /// The speed at which pair c separates (m/s).
   double parting_speed(const ExactBodies& bodies, size_t c) const {

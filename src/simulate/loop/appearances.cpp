@@ -95,7 +95,7 @@ bool Appearances::has_room(Entity i, const Vec3& x) {
 Instant Appearances::exit_of(Entity e, Entity i, const Vec3& x) const {
   const bool body = bodies_.world.is_body(e);
   if (!body && !bodies_.world.moves(e)) return {never, 0};
-  const Instant end = min(body ? bodies_.flight_end(e) : Instant{bodies_.moving.next_switch(bodies_.now.hi), 0},
+  const Instant end = min(body ? bodies_.flight_end(e) : bodies_.moving.next_switch(bodies_.now),
                           Instant{bodies_.options.duration, 0});
 
   // Each step ends before it may have left.
@@ -105,7 +105,8 @@ Instant Appearances::exit_of(Entity e, Entity i, const Vec3& x) const {
     if (depth <= exit_rounding * bodies_.world.radius[i]) return at;
     const Flight f = body ? bodies_.flights[e] : Flight{};
     const double speed = body ? f.velocity(at - f.start).norm() : bodies_.fixed_velocity(e, at).norm();
-    const double acceleration = body ? f.greatest_acceleration() : 0;
+    const Swing* const swing = bodies_.world.swing(e);
+    const double acceleration = body ? f.greatest_acceleration() : swing != nullptr ? greatest_acceleration(*swing) : 0;
 
     const double step = 2 * depth / (speed + sqrt(speed * speed + 2 * acceleration * depth));
     const Instant later = at + step;

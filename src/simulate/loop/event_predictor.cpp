@@ -95,17 +95,13 @@ void EventPredictor::predict_among(Entity i, span<const Entity> bodies) {
   if (bodies_.islands.any()) be_watched(i);
 }
 
-/// Offers what neither a contact nor a region is: strings, and switches of forces and of things that move.
+/// Offers what neither a contact nor a region is: strings, and switches of forces.
 void EventPredictor::offer_beside_contacts(Entity i, ExactEvent& best) {
   if (bodies_.ties.any()) offer_strings(i, best);
   if (bodies_.forced)
     offer(i, best,
           ExactEvent{
               {bodies_.next_switch(i, bodies_.now.floor()), 0}, no_entity, 0, no_feature, ExactEvent::Kind::force});
-  if (bodies_.moving.any())
-    offer(i, best,
-          ExactEvent{
-              {bodies_.moving.next_switch(bodies_.now.floor()), 0}, no_entity, 0, no_feature, ExactEvent::Kind::force});
 }
 
 /// Offers the instants at which strings of body i go taut. Those that constrained motion holds, and rods, do not.
@@ -143,8 +139,11 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
   const bool carried = lies_on_flat(bodies_.mode(i));
 
   for (const Entity e : others) {
-    // They cannot meet.
-    if (constrained && modes_.are_partners(i, e)) continue;
+    // Partners cannot meet.
+    if (constrained && modes_.are_partners(i, e)) {
+      offer_switch(i, e, best);
+      continue;
+    }
 
     uint8_t feature = no_feature;
     if (bodies_.world.is_body(e)) {
@@ -152,12 +151,44 @@ void EventPredictor::meet_each(Entity i, span<const Entity> others, ExactEvent& 
       ++pair_tests_;
       const Instant time = times_.of_pair(i, e, feature, latest_tie(best));
       offer(i, best, ExactEvent{time, e, bodies_.body[e].version, feature, ExactEvent::Kind::body_body});
+
+      // Fixed things.
+    } else if (bodies_.moving.any() && bodies_.world.moves(e)) [[unlikely]] {
+      meet_moving(i, e, best);
     } else if (!(carried && (flat_.carries(i, e) || flat_.hides(i, e))) && !(constrained && group_.hides(i, e))) {
       ++surface_tests_;
       const Instant time = times_.of_surface(i, e, feature);
       offer(i, best, ExactEvent{time, e, 0, feature, ExactEvent::Kind::body_fixed});
     }
   }
+}
+
+/// The same for a fixed thing that moves. Its present leg alone counts, and what comes after is predicted where it
+/// ends.
+void EventPredictor::meet_moving(Entity i, Entity thing, ExactEvent& best) {
+  offer_switch(i, thing, best);
+  if (lies_on_flat(bodies_.mode(i)) && (flat_.carries(i, thing) || flat_.hides(i, thing))) return;
+  if (bodies_.mode(i) == Mode::held && group_.hides(i, thing)) return;
+  ++surface_tests_;
+  uint8_t feature = no_feature;
+  const Instant time = times_.of_moving(i, thing, feature, latest_exit(i));
+  offer(i, best, ExactEvent{time, thing, 0, feature, ExactEvent::Kind::body_fixed});
+}
+
+/// The latest time (s) at which body i leaves its region, whatever its event is. Its events are predicted anew then.
+double EventPredictor::latest_exit(Entity i) {
+  const ExactEvent kept = exchange(bodies_.body[i].event, ExactEvent{});
+  const double exit = region_exit(bodies_, i);
+  bodies_.body[i].event = kept;
+  return exit;
+}
+
+/// Offers the next instant at which the velocity of a thing near body i jumps.
+void EventPredictor::offer_switch(Entity i, Entity thing, ExactEvent& best) const {
+  if (bodies_.world.moves(thing))
+    offer(
+        i, best,
+        ExactEvent{bodies_.moving.next_switch(thing, bodies_.now), no_entity, 0, no_feature, ExactEvent::Kind::force});
 }
 
 /// The same for bodies. Where all are balls with equal accelerations, several are tested at a time.

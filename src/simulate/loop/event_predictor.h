@@ -4,7 +4,7 @@
 // - a string that goes taut
 // - the end of its bounces
 // - a rim that it slides over
-// - a force that starts or ends
+// - a force that starts or ends, or a thing nearby whose velocity jumps
 // - the next step of its island
 
 #include "simulate/loop/exact_collision_times.h"
@@ -51,6 +51,9 @@ class EventPredictor {
   void offer_strings(Entity i, ExactEvent& best);
   void offer_flat_contacts(Entity i, ExactEvent& best) const;
   void meet_each(Entity i, span<const Entity> others, ExactEvent& best);
+  [[gnu::noinline]] void meet_moving(Entity i, Entity thing, ExactEvent& best);
+  double latest_exit(Entity i);
+  void offer_switch(Entity i, Entity thing, ExactEvent& best) const;
   void meet_bodies(Entity i, span<const Entity> others, ExactEvent& best);
   void meet_alike(Entity i, span<const Entity> others, ExactEvent& best);
 

@@ -193,10 +193,71 @@ double ExactCollisionTimes::noise_in_contact(Entity i) const {
              : 0;
 }
 
-/// The same for a fixed thing that moves, on its present leg. Times count from the leg's start, if that is later than
-/// the flight's.
-Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& feature) const {
+/// How long body i, at t (s) of its flight, surely stays clear of a thing that swings (s). A plane through the points
+/// at which it is the closest to the thing's middle parts the two until it has come as near as the thing ever goes.
+double ExactCollisionTimes::clear_time(Entity i, const Flight& f, double t, Entity surface) const {
   const World& world = bodies_.world;
+  const Swing& swing = *world.swing(surface);
+  const Vec3 x = f.position(t);
+  const Vec3 middle = world.fixed_position(surface) + swing.middle;
+  const Touch there = touch(world, i, x, surface, middle);
+  const Vec3& n = there.normal;
+  const double rounding = 0x1p-48 * (x.cwiseAbs().sum() + middle.cwiseAbs().sum());
+  const double room = there.gap - width_along(swing, n) - rounding;
+  if (!(room > 0)) return 0;
+
+  const double approach = n.dot(f.velocity(t));
+  if (f.is_parabola()) return plane_contact_time(room, -approach, -n.dot(f.acceleration(t)), 0, false, never);
+  const double towards = max(approach, 0.0);
+  return 2 * room / (towards + sqrt(towards * towards + 2 * room * f.greatest_acceleration()));
+}
+
+/// A thing that swings: wherever it may be near, piece by piece of its path, in each of which a polynomial gives that
+/// to rounding.
+Instant ExactCollisionTimes::of_swinging(Entity i, Entity surface, uint8_t& feature, double until) const {
+  const World& world = bodies_.world;
+  const Flight& f = bodies_.flights[i];
+  const Swing& swing = *world.swing(surface);
+  double horizon = min(end_of(i), Instant{until, 0}) - f.start;
+  // What stays where it is meets the thing in the first period, or never.
+  if (f.is_straight() && f.v.isZero(0) && f.a.isZero(0)) horizon = min(horizon, (bodies_.now - f.start) + swing.period);
+
+  const double smooth = smooth_time(swing);
+  const bool just_left = bodies_.body[i].origin_partner == surface;
+  for (double t = 0; t < horizon;) {
+    const bool leaves = t == 0 && just_left;
+    const double length = min({smooth, horizon - t, f.span_of_fade(t)});
+    if (const double clear = leaves ? 0 : clear_time(i, f, t, surface); clear > length) {
+      t += clear;
+      continue;
+    }
+
+    // The path of the thing as seen from the body.
+    const Instant from = f.start + t;
+    PolynomialPath::Terms displacement = displacement_on(swing, {from.hi, from.lo}, length);
+    const PolynomialPath::Terms of_body = f.displacement_from(t, length);
+    for (size_t k = 0; k < displacement.size(); ++k) displacement[k] -= of_body[k];
+
+    const double speeds =
+        sum_of_speeds(f.velocity(t)) + sum_of_speeds(bodies_.moving.velocity(surface, from)) + noise_in_contact(i);
+    const FeatureTime first =
+        time_of_impact(world, i, f.position(t), surface, bodies_.moving.position(surface, from), displacement, length,
+                       speeds, leaves ? bodies_.body[i].origin_feature : no_feature, length);
+    if (first.time < never) {
+      feature = first.feature;
+      return from + first.time;
+    }
+
+    if (!(t + length > t)) break;
+    t += length;
+  }
+  return {never, 0};
+}
+
+/// Times count from the leg's start, if that is later than the flight's.
+Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& feature, double until) const {
+  const World& world = bodies_.world;
+  if (world.swing(surface) != nullptr) return of_swinging(i, surface, feature, until);
   const Flight& f = bodies_.flights[i];
   const Instant base = max(f.start, bodies_.moving.leg_start(surface, bodies_.now));
   const double since = base - f.start;
@@ -241,9 +302,6 @@ Instant ExactCollisionTimes::of_moving(Entity i, Entity surface, uint8_t& featur
 
 Instant ExactCollisionTimes::of_surface(Entity i, Entity surface, uint8_t& feature) const {
   const World& world = bodies_.world;
-  if (world.moves(surface)) [[unlikely]]
-    return of_moving(i, surface, feature);
-
   const Flight& f = bodies_.flights[i];
   const Instant end = end_of(i);
   const bool step = end.hi < bodies_.options.duration;

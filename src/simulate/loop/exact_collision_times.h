@@ -13,13 +13,16 @@ class ExactCollisionTimes {
   /// It is computed from the later of their flights' starts, lower number first. (i, j) and (j, i) give the same bits.
   /// Where the two certainly stay apart up to `until` (s), it may be infinite too.
   Instant of_pair(Entity i, Entity j, uint8_t& feature, double until = never) const;
-  /// The time at which body i strikes a fixed thing, computed from its flight's start.
+  /// The time at which body i strikes a fixed thing that never moves, computed from its flight's start.
   Instant of_surface(Entity i, Entity surface, uint8_t& feature) const;
+  /// The same for a fixed thing that moves, on its present leg. Where it swings, it is that before `until` (s).
+  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, uint8_t& feature, double until) const;
   /// The time at which a string goes taut, computed as that of a pair.
   [[gnu::noinline]] Instant of_string(Entity string) const;
 
  private:
-  [[gnu::noinline]] Instant of_moving(Entity i, Entity surface, uint8_t& feature) const;
+  Instant of_swinging(Entity i, Entity surface, uint8_t& feature, double until) const;
+  double clear_time(Entity i, const Flight& f, double t, Entity surface) const;
   Instant of_curves(Entity a, const Flight& p, Entity b, const Flight& q, const RelativeMotion& m,
                     uint8_t& feature) const;
   static PolynomialPath::Terms relative_displacement(const Flight& p, double tp, const Flight& q, double tq,

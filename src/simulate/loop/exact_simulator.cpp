@@ -489,8 +489,9 @@ bool ExactSimulator::rests(Entity i) const {
   if (bodies_.forced && bodies_.next_switch(i, past) < end) return false;
   if (bodies_.moving.any()) {
     const ExactEvent& event = bodies_.body[i].event;
-    if (bodies_.moving.next_switch(past) < end || (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end))
-      return false;
+    if (event.kind == ExactEvent::Kind::body_fixed && event.time.hi < end) return false;
+    for (const Entity e : bodies_.neighbours.surfaces(i))
+      if (bodies_.moving.next_switch(e, bodies_.now).hi < end) return false;
   }
 
   if (bodies_.mode(i) == Mode::asleep) return true;

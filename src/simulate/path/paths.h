@@ -117,7 +117,7 @@ struct BodyPaths {
   // A thing is what a body meets: another body, a fixed thing, or a string. A string is at its end away from
   // String::body: at a body, or at an anchor, which is as a fixed thing.
   /// The present position (m) and velocity (m/s) of a thing, and the acceleration of its path (m/s^2).
-  Vec3 position_of(Entity thing) const {
+  [[gnu::always_inline]] Vec3 position_of(Entity thing) const {
     const Entity i = world.second_body(thing);
     return i != no_entity ? position(i) : fixed_position(thing);
   }
@@ -127,7 +127,7 @@ struct BodyPaths {
   }
   Vec3 pull_of(Entity thing) const {
     const Entity i = world.second_body(thing);
-    return i != no_entity ? flights[i].acceleration(now - flights[i].start) : Vec3(Vec3::Zero());
+    return i != no_entity ? flights[i].acceleration(now - flights[i].start) : fixed_acceleration(thing, now);
   }
   /// The position (m) and velocity (m/s) of a fixed thing, at present or at an instant.
   Vec3 fixed_position(Entity e) const { return fixed_position(e, now); }
@@ -137,6 +137,10 @@ struct BodyPaths {
   }
   Vec3 fixed_velocity(Entity e, const Instant& at) const {
     return moving.any() ? moving.velocity(e, at) : Vec3(Vec3::Zero());
+  }
+  /// Its acceleration (m/s^2) at an instant.
+  Vec3 fixed_acceleration(Entity e, const Instant& at) const {
+    return moving.any() ? moving.acceleration(e, at) : Vec3(Vec3::Zero());
   }
 
  private:

@@ -41,34 +41,24 @@ SurfacesNear::SurfacesNear(const World& world) : world_(world) {
   for (const Entity e : all_) sweep(e);
 }
 
-/// Finds the places of a thing's centre: those at the starts of its legs, and in the direction of the last one.
+/// Finds the places of a thing's centre, and how far out a plane goes.
 void SurfacesNear::sweep(Entity e) {
   const Vec3& start = world_.fixed_position(e);
   Places& places = places_.emplace_back(Places{start, start});
   if (!world_.moves(e)) return;
 
-  // Includes a place of the centre, and for a plane the offset there.
-  const auto include = [&](const Vec3& x) {
-    places.low = places.low.cwiseMin(x);
-    places.high = places.high.cwiseMax(x);
-    if (!world_.is_plane(e)) return;
-    HalfSpace& plane = planes_[e - world_.body_count()];
-    plane.offset = max(plane.offset, plane.normal.dot(x));
-    plane.rounding = max(plane.rounding, 0x1p-48 * x.cwiseAbs().sum());
-  };
-
-  const vector<MotionLeg>& legs = world_.legs(e);
-  for (const MotionLeg& leg : legs) include(place_on(start, leg, {leg.from, 0}));
-
-  // The last leg has no end.
-  const Vec3& last = legs.back().velocity;
+  const SurfaceMotion& motion = world_.motion(e);
   if (world_.is_plane(e)) {
     HalfSpace& plane = planes_[e - world_.body_count()];
-    if (plane.normal.dot(last) > 0) plane.offset = never;
+    const double out = swept_along(motion, plane.normal);
+    plane.offset += out;
+    if (out < never) plane.rounding += 0x1p-48 * std::abs(out);
+    return;
   }
+
   for (int axis = 0; axis < 3; ++axis) {
-    if (last[axis] < 0) places.low[axis] = -never;
-    if (last[axis] > 0) places.high[axis] = never;
+    places.low[axis] -= swept_along(motion, -Vec3::Unit(axis));
+    places.high[axis] += swept_along(motion, Vec3::Unit(axis));
   }
 }
 
