@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/fields.h"
+#include "scene/hollow.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -14,11 +15,13 @@
 namespace carom {
 namespace {
 
-constexpr string_view face_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
-
 void add_plane(const PlaneKeys& plane, const string& name, Scene& scene) {
   scene.world.planes.push_back({plane.point, unit(plane.normal), plane.restitution});
   scene.roster.fixed.push_back({name, plane.color, plane.visible});
+}
+
+string part_of(const string& name, string_view part) {
+  return part.empty() ? name : name + "." + string(part);
 }
 
 void add_room(const View& view, const string& name, Scene& scene, Diagnostics& diagnostics) {
@@ -31,13 +34,14 @@ void add_room(const View& view, const string& name, Scene& scene, Diagnostics& d
   }
 
   // Each side faces inward.
+  const vector<string_view> names = part_names(view);
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
     Vec3 normal = Vec3::Zero();
     normal[axis] = side % 2 == 0 ? 1 : -1;
     const optional<Vec3>& corner = side % 2 == 0 ? room.min : room.max;
     scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, room.restitution});
-    scene.roster.fixed.push_back({name + "." + string(face_names[side]), room.color, room.visible});
+    scene.roster.fixed.push_back({part_of(name, names[size_t(side)]), room.color, room.visible});
   }
 }
 
@@ -62,12 +66,15 @@ void add_wall(const View& view, const string& name, Scene& scene, Diagnostics& d
   scene.roster.fixed.push_back({name, wall.color, wall.visible});
 }
 
-void add_obstacle(const View& view, const string& name, Forms& forms, Scene& scene) {
+void add_obstacle(const View& view, const string& name, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   const auto obstacle = filled<ObstacleKeys>(view);
   // The volume of an obstacle with errors is empty.
   const Form form = forms.of(obstacle, view.find("color") != nullptr).value_or(Form{});
-  scene.world.obstacles.push_back({obstacle.position, form.volume, obstacle.restitution});
-  scene.roster.fixed.push_back({name, obstacle.color, obstacle.visible, form.mesh});
+  check_hollow_keys(view, name, diagnostics);
+  for (const HollowPart& part : parts_of_obstacle(obstacle, form.volume)) {
+    scene.world.obstacles.push_back(part.obstacle);
+    scene.roster.fixed.push_back({part_of(name, part.name), obstacle.color, obstacle.visible, form.mesh, part.inward});
+  }
 }
 
 /// The legs of a thing's motion. None: it has no `motion`, or it never moves.
@@ -99,12 +106,12 @@ vector<MotionLeg> motion_of(const View& thing, Diagnostics& diagnostics) {
   return legs_of(windows);
 }
 
-/// Stores the motion of the thing that was decoded last.
-void add_motion(const View& view, size_t number, Scene& scene, Diagnostics& diagnostics) {
-  vector<MotionLeg> legs = motion_of(view, diagnostics);
+/// Stores the motion of the things of an entry.
+void add_motion(const FixedEntry& entry, Scene& scene, Diagnostics& diagnostics) {
+  const vector<MotionLeg> legs = motion_of(entry.view, diagnostics);
   if (legs.empty()) return;
-  scene.world.motions.resize(number + 1);
-  scene.world.motions[number] = std::move(legs);
+  scene.world.motions.resize(entry.first + entry.count);
+  std::fill_n(scene.world.motions.begin() + entry.first, entry.count, legs);
 }
 
 }  // namespace
@@ -123,11 +130,11 @@ void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagno
     const View& view = entry.view;
     const string_view kind = view.kind().name;
     const string& name = entry.key->text;
-    if (kind != "room") add_motion(view, entry.first, scene, diagnostics);
+    if (kind != "room") add_motion(entry, scene, diagnostics);
     if (kind == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
     if (kind == "room") add_room(view, name, scene, diagnostics);
     if (kind == "wall") add_wall(view, name, scene, diagnostics);
-    if (kind == "obstacle") add_obstacle(view, name, forms, scene);
+    if (kind == "obstacle") add_obstacle(view, name, forms, scene, diagnostics);
   }
   if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }

@@ -62,7 +62,7 @@ constexpr Field restitution_fields[] = {
 };
 
 // A name, a group's member, or a side of the room.
-constexpr string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
+constexpr string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|side|bottom|top|\{.+\})){0,2}$)";
 
 constexpr Field pair_fields[] = {
     row<PairKeys, &PairKeys::between>("between", "Two names: balls, bodies, groups, members (gas.3), planes, walls, obstacles, room, room.y_min.", "[red, floor]", {.type = Type::two_names, .needed = true, .title = "Two names", .pattern = reference}),
@@ -182,6 +182,8 @@ constexpr Field obstacle_color = row_if_given<ObstacleKeys, &ObstacleKeys::color
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     row<ObstacleKeys, &ObstacleKeys::position>("position", "Centre.", "[-3, 1, 0]", {.unit = "m", .needed = true}),
+    row<ObstacleKeys, &ObstacleKeys::inside>("inside", "Hollow: its surface alone, without thickness, for bodies inside; a tube's is tube.side, tube.bottom and tube.top, a box's box.x_min to box.z_max. Balls alone meet round ones.", "true", {.title = "Hollow"}),
+    row<ObstacleKeys, &ObstacleKeys::open>("open", "Which ends a hollow one lacks; a sphere open at the top is its lower half.", "top", {.of = "none|top|bottom|both", .title = "Open ends"}),
     motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
 };
 

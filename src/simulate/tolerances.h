@@ -42,10 +42,6 @@ inline constexpr double step_rounding = 512;
 inline constexpr double plane_rounding = 0x1p-49;
 // Share of accelerations: a difference on curves that is rounding.
 inline constexpr double curve_rounding = 0x1p-43;
-// Share of the decay time of drag: for so long, eight terms give the path to rounding.
-inline constexpr double series_fade = 0x1p-4;
-// Multiple of the decay time: nothing is left of the acceleration after it.
-inline constexpr double faded = 64;
 // Share of a radius or a coordinate: allowed error of polynomials beside a closed form.
 inline constexpr double closed_place = 0x1p-48;
 // Share of speeds: the same. These polynomials only serve to find impacts.
