@@ -2,7 +2,6 @@
 // list reaches. What is measured in each step is the gap along a normal whose half space contains the other body.
 #include "simulate/crowd/crowd_list.h"
 
-#include "geometry/shell.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "simulate/contact/contact_list.h"
@@ -257,20 +256,6 @@ void CrowdList::write(Crowd& crowd, const Pairs& pairs) {
   crowd.list.listed = true;
 }
 
-/// The same for a shell. Its inside holds a ball within every half space that touches it, so that the normal where the
-/// displacement ends bars the ball there, and that at the start would let it through.
-Touch CrowdList::ahead(const Crowd& crowd, size_t k, Entity e, const Vec3& xe, const Vec3& moved,
-                       const Touch& now) const {
-  if (now.feature != shell_inner) return now;
-  const World& world = bodies_.world;
-  const Entity i = crowd.members[k];
-  const Touch then = touch(world, i, crowd.position(k), e, xe + moved, shell_inner);
-  Touch best = now;
-  best.normal = then.normal;
-  best.gap = then.gap - then.normal.dot(moved);
-  return best;
-}
-
 /// The gap of member k and thing e at present, along the normal that is best for a relative displacement (m). Volumes
 /// that do not turn are apart along any axis along which their extents are, so that this is a choice.
 Touch CrowdList::closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe, const Vec3& moved) const {
@@ -278,8 +263,7 @@ Touch CrowdList::closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe,
   const Entity i = crowd.members[k];
   const Vec3 x = crowd.position(k);
   Touch best = touch(world, i, x, e, xe);
-  if (world.is_plane(e)) return best;
-  if (world.is_shell(e)) return ahead(crowd, k, e, xe, moved, best);
+  if (world.is_plane(e) || world.is_shell(e)) return best;
 
   // A normal counts if it leaves a wider gap after the displacement.
   double after = best.gap + best.normal.dot(moved);  // m

@@ -42,7 +42,6 @@ class CrowdList {
  private:
   double surface_skin(const Crowd& crowd) const;
   Outlook outlook_on(const Crowd& crowd, Entity member, Entity e) const;
-  Touch ahead(const Crowd& crowd, size_t k, Entity e, const Vec3& xe, const Vec3& moved, const Touch& now) const;
   Touch closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe, const Vec3& moved) const;
   using Pairs = vector<CrowdRows::Pair>;
   void list_member(const Crowd& crowd, uint32_t k, double skin, Pairs& pairs) const;

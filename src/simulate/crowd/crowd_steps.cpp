@@ -12,6 +12,13 @@ namespace carom {
 
 namespace tol = exact_tolerance;
 
+CrowdSteps::CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads)
+    : bodies_(bodies),
+      quality_(quality),
+      threads_(threads),
+      shells_(any_of(bodies.world.obstacles, [](const Obstacle& o) { return o.hollow != Hollow::none; })),
+      solver_(threads) {}
+
 bool CrowdSteps::solve(Crowd& crowd) {
   if (!strike(crowd)) return false;
   shorten(crowd, longest(crowd));
@@ -108,12 +115,33 @@ bool CrowdSteps::aim(Crowd& crowd) {
                             now_.data(), target, may_strike_.data() + begin);
   });
 
+  if (shells_) bend_targets(crowd);
+
   bool strikes = false;
   for (const AimResult& of : found) {
     if (of.least_gap < 0) bodies_.log.note_overlap(-of.least_gap);
     strikes = strikes || of.strikes;
   }
   return strikes;
+}
+
+/// Along the inside of a shell a straight drift would lead out of it. Such rows aim at gaps that are wider by the sagitta
+/// of the drift. Their normals stay those of the step's start, through the shell's axis. A sliding ball thus keeps its
+/// speed, and its moment about the axis.
+void CrowdSteps::bend_targets(Crowd& crowd) const {
+  const World& world = bodies_.world;
+  threads_.each(crowd.rows, [&](size_t p) {
+    const auto& [begin, balls, end] = crowd.rows.parts[p];
+    crowd.rows.for_each({balls, balls, end}, [&](size_t g, size_t lane) {
+      const auto& [i, e] = crowd.rows.names[g][lane];
+      if (!world.is_shell(e)) return;
+      RowGroup& row = crowd.rows.hot[g];
+      const Vec3 x = crowd.position(row.a[lane]), xe = crowd.position(row.b[lane]);
+      const Vec3 moved = crowd.step.length * (crowd.drift(row.b[lane]) - crowd.drift(row.a[lane]));
+      const double bent = bending(world, i, x, e, xe, touch(world, i, x, e, xe), moved);
+      row.base[lane] += min(0.5 * bent, 0.0);
+    });
+  });
 }
 
 /// Impacts of pairs that would close their gap in the step, in the order of rows, until none is left. False: one of

@@ -15,8 +15,7 @@ namespace carom {
 class CrowdSteps {
  public:
   /// `threads` must outlive the steps.
-  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads)
-      : bodies_(bodies), quality_(quality), threads_(threads), solver_(threads) {}
+  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads);
 
   /// Solves the step of a crowd whose gaps are measured, and shortens it where that is necessary. False: a body has
   /// become too fast for the list. Drifts then have the impacts alone.
@@ -35,6 +34,7 @@ class CrowdSteps {
   double return_of_step(const Crowd& crowd) const;
   bool may_return(const Crowd& crowd) const;
   bool aim(Crowd& crowd);
+  void bend_targets(Crowd& crowd) const;
   bool strike(Crowd& crowd);
   /// Impacts of a part of the rows in one round.
   struct Strikes {
@@ -70,6 +70,7 @@ class CrowdSteps {
   const ContactQuality& quality_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   CrowdThreads& threads_;
+  const bool shells_;  // there are any
   CrowdSolver solver_;
   vector<uint8_t> may_strike_;  // by group
   vector<Four> now_;            // velocities of the instant, by number
