@@ -108,6 +108,7 @@ class Collector {
   Mesh obstacle_mesh(const Obstacle& obstacle, const FixedLook& name) {
     if (!name.visible) return {};
     const Volume& volume = obstacle.volume;
+    if (obstacle.hollow != Hollow::none || !name.inward.isZero(0)) return shell_mesh(obstacle, name.inward);
     if (name.mesh) {
       MeshUse use = *name.mesh;
       use.own_colors = use.own_colors && painted_;
@@ -117,6 +118,31 @@ class Collector {
     const Mesh& mesh =
         known != shapes_.end() ? known->second : shapes_.emplace(volume.shape, shape(volume.shape)).first->second;
     return placed(mesh, volume.half, obstacle.center);
+  }
+
+  /// A part of a hollow obstacle, as it is seen from within.
+  static Mesh shell_mesh(const Obstacle& obstacle, const Vec3& inward) {
+    const Mesh whole = shape(obstacle.volume.shape);
+    Mesh mesh{whole.vertices, whole.normals, {}};
+    const auto kept = [&](const Vec3& middle, const Vec3& normal) {
+      if (!inward.isZero(0)) return normal.dot(inward) > 0.5;
+      return obstacle.hollow == Hollow::side         ? std::abs(normal.y()) < 0.5
+             : obstacle.hollow == Hollow::lower_half ? middle.y() < 0
+             : obstacle.hollow == Hollow::upper_half ? middle.y() > 0
+                                                     : true;
+    };
+    for (size_t t = 0; t < whole.triangles.size(); t += 3) {
+      const uint32_t a = whole.triangles[t], b = whole.triangles[t + 1], c = whole.triangles[t + 2];
+      const Vec3 middle = (whole.vertices[a] + whole.vertices[b] + whole.vertices[c]) / 3;
+      const Vec3 normal = whole.normals[a] + whole.normals[b] + whole.normals[c];
+      if (!kept(middle, normal)) continue;
+      // A flat part keeps the face that looks inward. What is round shows its other side.
+      mesh.triangles.insert(mesh.triangles.end(), {a, inward.isZero(0) ? c : b, inward.isZero(0) ? b : c});
+    }
+
+    for (Vec3& vertex : mesh.vertices) vertex = obstacle.center + obstacle.volume.half.cwiseProduct(vertex);
+    for (Vec3& normal : mesh.normals) normal = inward.isZero(0) ? Vec3(-normal) : inward;
+    return mesh;
   }
 
   static Mesh shape(Shape shape) {

@@ -194,6 +194,10 @@ inline constexpr double quick_return = 1000;
 // Rounds of sweeps over pairs that would overlap, after which a step is shortened; and how often it is.
 inline constexpr int more_sweeps = 32;
 inline constexpr int most_shortenings = 6;
+// Times the way by which a shell bends: what a step aims at where contact has no gap.
+inline constexpr double bent_aim = 1.25;
+// Rounds in which balls are kept from shells that bend.
+inline constexpr int bent_rounds = 4;
 // What a step leaves of the shells of a crowd that is calm.
 inline constexpr double shell_decay = 0.875;
 // Share of a radius: a crowd with narrower shells can go over to constrained motion.

@@ -112,8 +112,8 @@ bool CrowdSleep::solve_rest(const Crowd& crowd, Holding& holding) {
   return all_of(motion, [&](const Vec3& left) { return left.norm() <= unsure; });
 }
 
-/// The angle by which a shell's normal at a contact is unsure, because contacts keep gaps. A heap in a bowl is in balance
-/// at one place alone. It need not be nearer to that than places are sure.
+/// The angle by which a shell's normal at a contact is unsure, because contacts keep gaps. A heap in a bowl is in
+/// balance at one place alone. It need not be nearer to that than places are sure.
 double CrowdSleep::unsure_direction(const Crowd& crowd, const Holding& holding) const {
   const World& world = bodies_.world;
   double angle = 0;

@@ -26,6 +26,7 @@ bool CrowdSteps::solve(Crowd& crowd) {
   before_ = crowd.v;
   for (int tries = 0;; ++tries) {
     kick(crowd);
+    bend(crowd);
     crowd.step.solved = balance(crowd);
 
     // The contact solver's forces depend on the order of bodies: mirror images with one slab have the same.
@@ -52,6 +53,7 @@ bool CrowdSteps::solve(Crowd& crowd) {
 /// Lets the step end sooner (s). What it restores of missing gaps is less too: the return must not be faster.
 void CrowdSteps::shorten(Crowd& crowd, double length) {
   if (!(length < crowd.step.length)) return;
+  unbend(crowd);
   const double share = length / crowd.step.length;
   for (RowGroup& group : crowd.rows.hot)
     for (double& base : group.base) base *= base < 0 ? share : 1;
@@ -94,6 +96,8 @@ bool CrowdSteps::aim(Crowd& crowd) {
   now_ = crowd.v;
   for (size_t k = 0; k < crowd.members.size(); ++k) add(now_[k], crowd.lag[k] * crowd.a[k]);
 
+  bends_.clear();
+  bases_.clear();
   const double back = return_of_step(crowd);
   StepTarget target;
   target.length = crowd.step.length;
@@ -115,8 +119,6 @@ bool CrowdSteps::aim(Crowd& crowd) {
                             now_.data(), target, may_strike_.data() + begin);
   });
 
-  if (shells_) bend_targets(crowd);
-
   bool strikes = false;
   for (const AimResult& of : found) {
     if (of.least_gap < 0) bodies_.log.note_overlap(-of.least_gap);
@@ -125,23 +127,48 @@ bool CrowdSteps::aim(Crowd& crowd) {
   return strikes;
 }
 
-/// Along the inside of a shell a straight drift would lead out of it. Such rows aim at gaps that are wider by the sagitta
-/// of the drift. Their normals stay those of the step's start, through the shell's axis. A sliding ball thus keeps its
-/// speed, and its moment about the axis.
-void CrowdSteps::bend_targets(Crowd& crowd) const {
+/// Along the inside of a shell a straight drift leads out of it. The gaps and targets of such rows are narrower by what
+/// the present drift would lose so in the step. Normals stay those of the step's start, through the shell's axis: a
+/// sliding ball thus keeps its speed, and its moment about the axis.
+void CrowdSteps::bend(Crowd& crowd) {
+  if (!shells_) return;
   const World& world = bodies_.world;
+  unbend(crowd);
+  bends_.resize(CrowdRows::lanes * crowd.rows.groups(), 0);
+  bases_.resize(bends_.size(), 0);
+
   threads_.each(crowd.rows, [&](size_t p) {
     const auto& [begin, balls, end] = crowd.rows.parts[p];
     crowd.rows.for_each({balls, balls, end}, [&](size_t g, size_t lane) {
       const auto& [i, e] = crowd.rows.names[g][lane];
       if (!world.is_shell(e)) return;
       RowGroup& row = crowd.rows.hot[g];
-      const Vec3 x = crowd.position(row.a[lane]), xe = crowd.position(row.b[lane]);
-      const Vec3 moved = crowd.step.length * (crowd.drift(row.b[lane]) - crowd.drift(row.a[lane]));
-      const double bent = bending(world, i, x, e, xe, touch(world, i, x, e, xe), moved);
-      row.base[lane] += min(0.5 * bent, 0.0);
+      const uint32_t a = row.a[lane], b = row.b[lane];
+      const Vec3 way = crowd.step.length * crowd.drift(a), of_shell = crowd.step.length * crowd.drift(b);
+      const Touch then = touch(world, i, crowd.position(a) + way, e, crowd.position(b) + of_shell);
+      double& gap = crowd.rows.state[g].gap[lane];
+      const double straight = gap + crowd.rows.normal(g, lane).dot(of_shell - way);
+
+      const double bent = min(then.gap - straight, 0.0);
+      bends_[CrowdRows::lanes * g + lane] = bent;
+      // Contact forces change the drift, and with it the bend. Where there is no shell to take that, the aim has room.
+      const double aim = gap < 0.5 * crowd.step.shell ? tol::bent_aim * bent : bent;
+      gap += bent;
+      bases_[CrowdRows::lanes * g + lane] = aim;
+      row.base[lane] += aim;
     });
   });
+}
+
+/// Takes that back.
+void CrowdSteps::unbend(Crowd& crowd) {
+  for (size_t k = 0; k < bends_.size(); ++k) {
+    const size_t g = k / CrowdRows::lanes, lane = k % CrowdRows::lanes;
+    crowd.rows.state[g].gap[lane] -= bends_[k];
+    crowd.rows.hot[g].base[lane] -= bases_[k];
+  }
+  bends_.clear();
+  bases_.clear();
 }
 
 /// Impacts of pairs that would close their gap in the step, in the order of rows, until none is left. False: one of
@@ -349,7 +376,11 @@ bool CrowdSteps::balance(Crowd& crowd) {
   // Forces as a whole then do no work but that of their targets, whatever the sweeps have left. Without this the errors
   // of many steps add up to energy.
   solver_.scale(crowd.rows, crowd.v, free_, crowd.step.length);
-  if (safe_length(crowd) < crowd.step.length) keep_apart(crowd);
+  bend(crowd);
+  for (int round = 0; round < (shells_ ? tol::bent_rounds : 1) && safe_length(crowd) < crowd.step.length; ++round) {
+    keep_apart(crowd);
+    bend(crowd);
+  }
   if (found.change <= aim.change) return true;
   give_up_returns(crowd);
   return crowd.members.size() <= tol::exact_members && solve_exactly(crowd);

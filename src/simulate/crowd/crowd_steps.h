@@ -34,7 +34,8 @@ class CrowdSteps {
   double return_of_step(const Crowd& crowd) const;
   bool may_return(const Crowd& crowd) const;
   bool aim(Crowd& crowd);
-  void bend_targets(Crowd& crowd) const;
+  void bend(Crowd& crowd);
+  void unbend(Crowd& crowd);
   bool strike(Crowd& crowd);
   /// Impacts of a part of the rows in one round.
   struct Strikes {
@@ -55,7 +56,7 @@ class CrowdSteps {
   double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
   bool balance(Crowd& crowd);
-  static void shorten(Crowd& crowd, double length);
+  void shorten(Crowd& crowd, double length);
   double longest(const Crowd& crowd) const;
   void start_warm(Crowd& crowd);
   static bool give_up_returns(Crowd& crowd);
@@ -76,6 +77,8 @@ class CrowdSteps {
   vector<Four> now_;            // velocities of the instant, by number
   vector<Four> before_;         // those of the drift before the kick
   vector<Four> free_;           // and after it, without contacts
+  vector<double> bends_;        // m, by row: what its gap has less of because its thing bends, at most 0
+  vector<double> bases_;        // m, by row: the same of its base
 };
 
 }  // namespace carom
