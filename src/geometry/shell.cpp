@@ -102,7 +102,10 @@ class ParabolaPiece {
 class PolynomialPiece {
  public:
   PolynomialPiece(const Vec3& p, const PolynomialPath::Terms& terms, double length, double speeds)
-      : p_(p), terms_(terms), length_(length), speeds_(speeds) {}
+      : p_(p), terms_(terms), length_(length), speeds_(speeds) {
+    for (const Vec3& term : terms) reach_ += term.norm();
+    reach_ += gap_rounding * (reach_ + p.cwiseAbs().sum());
+  }
 
   double length() const { return length_; }
   Vec3 start() const { return p_; }
@@ -111,6 +114,7 @@ class PolynomialPiece {
   double speeds() const { return speeds_; }
 
   vector<double> times_at(double height) const {
+    if (std::abs(p_.y() - height) > reach_) return {};
     array<double, PolynomialPath::terms + 1> above;
     above[0] = p_.y() - height;
     for (size_t k = 0; k < PolynomialPath::terms; ++k) above[k + 1] = terms_[k].y();
@@ -127,6 +131,8 @@ class PolynomialPiece {
   }
 
   double meet(double s, Side side, bool along_axis, bool closed) const {
+    const double from = (along_axis ? level(p_) : p_).norm();
+    if (!closed && (side == Side::inside ? from + reach_ < s : from - reach_ > s)) return never;
     return distance_time(along_axis ? level(p_) : p_, along_axis ? level(terms_) : terms_, length_, s, side, speeds_,
                          closed, length_);
   }
@@ -137,6 +143,7 @@ class PolynomialPiece {
   Vec3 p_;                       // m
   PolynomialPath::Terms terms_;  // m
   double length_, speeds_;       // s, m/s
+  double reach_ = 0;             // m: it stays within so far of its start
 };
 
 /// The polynomial of a rim, along a path from p (m, from the circle's centre) on.

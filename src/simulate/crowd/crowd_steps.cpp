@@ -376,10 +376,12 @@ bool CrowdSteps::balance(Crowd& crowd) {
   // Forces as a whole then do no work but that of their targets, whatever the sweeps have left. Without this the errors
   // of many steps add up to energy.
   solver_.scale(crowd.rows, crowd.v, free_, crowd.step.length);
-  bend(crowd);
-  for (int round = 0; round < (shells_ ? tol::bent_rounds : 1) && safe_length(crowd) < crowd.step.length; ++round) {
-    keep_apart(crowd);
+  if (!shells_ && safe_length(crowd) < crowd.step.length) keep_apart(crowd, 0);
+  // Each change of drifts changes how far shells bend.
+  if (shells_) {
     bend(crowd);
+    const double rounding = tol::gap_rounding * crowd.smallest;
+    for (int round = 0; round < tol::bent_rounds && keep_apart(crowd, rounding); ++round) bend(crowd);
   }
   if (found.change <= aim.change) return true;
   give_up_returns(crowd);
@@ -399,8 +401,9 @@ bool CrowdSteps::give_up_returns(Crowd& crowd) {
   return any;
 }
 
-/// Sweeps over the pairs that would overlap, and those that overlap because of that. Others have slack.
-void CrowdSteps::keep_apart(Crowd& crowd) {
+/// Sweeps over the pairs that would overlap by more than rounding (m), and those that overlap because of that. Others have
+/// slack. Returns whether there were some.
+bool CrowdSteps::keep_apart(Crowd& crowd, double rounding) {
   vector<uint8_t> marks(crowd.rows.groups(), 0);
   for (int sweep = 0; sweep < tol::more_sweeps; ++sweep) {
     bool any = false;
@@ -408,13 +411,14 @@ void CrowdSteps::keep_apart(Crowd& crowd) {
     crowd.rows.for_each([&](size_t g, size_t lane) {
       const RowGroup& row = crowd.rows.hot[g];
       const double speed = crowd.rows.normal(g, lane).dot(crowd.drift(row.b[lane]) - crowd.drift(row.a[lane]));
-      if (crowd.rows.state[g].gap[lane] + crowd.step.length * speed >= 0) return;
+      if (crowd.rows.state[g].gap[lane] + crowd.step.length * speed >= -rounding) return;
       any = true;
       marks[g] = 1;
     });
-    if (!any) return;
+    if (!any) return sweep > 0;
     solver_.sweep(crowd.rows, crowd.v, crowd.step.length, marks, 4);
   }
+  return true;
 }
 
 /// The longest drift (s) after which no two overlap by more than is allowed.

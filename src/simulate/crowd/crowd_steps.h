@@ -60,7 +60,7 @@ class CrowdSteps {
   double longest(const Crowd& crowd) const;
   void start_warm(Crowd& crowd);
   static bool give_up_returns(Crowd& crowd);
-  void keep_apart(Crowd& crowd);
+  bool keep_apart(Crowd& crowd, double rounding);
   double safe_length(const Crowd& crowd);
   bool solve_exactly(Crowd& crowd) const;
   vector<RowPlace> closing_rows(const Crowd& crowd, double rounding);
