@@ -93,6 +93,7 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
     case PairKind::half_space:
     case PairKind::sphere_wall:
       return meet_round(way, world, a, xa, b, xb, speeds, left, horizon);
+
     case PairKind::shell:
       return meet_shell(way, world, a, b, xb - xa, speeds, left, horizon);
     case PairKind::string:

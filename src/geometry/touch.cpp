@@ -237,6 +237,7 @@ bool is_flat(const World& world, Entity a, Entity b, uint8_t feature) {
     case PairKind::shell:
     case PairKind::string:
       return false;
+
     case PairKind::half_space:
       return true;
     case PairKind::sphere_wall:

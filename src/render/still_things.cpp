@@ -124,6 +124,8 @@ class Collector {
   static Mesh shell_mesh(const Obstacle& obstacle, const Vec3& inward) {
     const Mesh whole = shape(obstacle.volume.shape);
     Mesh mesh{whole.vertices, whole.normals, {}};
+
+    // Which of its triangles there are.
     const auto kept = [&](const Vec3& middle, const Vec3& normal) {
       if (!inward.isZero(0)) return normal.dot(inward) > 0.5;
       return obstacle.hollow == Hollow::side         ? std::abs(normal.y()) < 0.5
@@ -131,6 +133,7 @@ class Collector {
              : obstacle.hollow == Hollow::upper_half ? middle.y() > 0
                                                      : true;
     };
+
     for (size_t t = 0; t < whole.triangles.size(); t += 3) {
       const uint32_t a = whole.triangles[t], b = whole.triangles[t + 1], c = whole.triangles[t + 2];
       const Vec3 middle = (whole.vertices[a] + whole.vertices[b] + whole.vertices[c]) / 3;

@@ -100,6 +100,7 @@ void check_hollow_keys(const View& view, const string& name, Diagnostics& diagno
                       "expected `inside: true` beside `open`, or no `open`");
     return;
   }
+
   if (keys.mesh != nullptr)
     diagnostics.add(view.place("mesh"), fmt::format("{} is hollow, and a mesh is not", in_backticks(name)),
                     "expected `radius`, `cylinder` or `box` alone beside `inside: true`");
@@ -118,6 +119,7 @@ void check_hollows(const Inventory& inventory, const Scene& scene, Diagnostics& 
     for (const double r : world.radius) joint += r * r * r;
 
   for (const FixedEntry& entry : inventory.fixed) {
+    // The shell is the first part.
     const Entity e = inventory.body_count + entry.first;
     if (!world.is_shell(e)) continue;
     const string name = in_backticks(entry.key->text);
@@ -140,6 +142,7 @@ void check_hollows(const Inventory& inventory, const Scene& scene, Diagnostics& 
                                     shortest(*widest), name, shortest(radius)),
                         "a ball cannot lie on a rim all around: expected narrower balls, or `open: none`");
     }
+
     if (joint >= radius * radius * radius)
       diagnostics.add(entry.view.place("inside"),
                       fmt::format("balls may merge into one of radius {:.6g} m, and {} has a radius of {} m",

@@ -31,6 +31,7 @@ double gap_by_points(const Obstacle& shell, const Vec3& p, double r) {
   double least = infinity;
   // The nearest point lies in the plane through p and the axis.
   const double rho = hypot(p.x(), p.z());
+
   for (int k = 0; k <= 20000; ++k) {
     const double share = k / 20000.0;
     double out, up;
@@ -42,6 +43,7 @@ double gap_by_points(const Obstacle& shell, const Vec3& p, double r) {
       const double angle = low + share * (high - low);
       out = radius * std::cos(angle), up = radius * std::sin(angle);
     }
+
     least = min(least, hypot(rho - out, p.y() - up));
   }
   return least - r;
@@ -79,6 +81,7 @@ TEST(Shell, BendingIsTheSecondDerivativeOfTheGap) {
       const Vec3 x = sampler.vector(2), w = sampler.vector(1), none = Vec3::Zero();
       const Touch there = touch(world, 0, x, 1, none);
       if (there.gap < 0.05 || there.gap > 0.5) continue;
+
       const double h = 1e-4;
       const auto gap = [&](double t) { return touch(world, 0, x, 1, t * w, there.feature).gap; };
       const double difference = (gap(h) - 2 * gap(0) + gap(-h)) / (h * h);
@@ -104,6 +107,7 @@ void compare(const World& world, const auto& place, FeatureTime found, double ho
     EXPECT_EQ(walked, never);
     return;
   }
+
   ++hits;
   EXPECT_LE(found.time, walked) << "passed through";
   const Touch there = touch(world, 0, place(found.time), 1, center, found.feature);
@@ -123,6 +127,7 @@ TEST(Shell, NoContactIsMissedOnParabolas) {
       const Vec3 x = sampler.vector(2), v = sampler.vector(3), a = k % 3 == 0 ? Vec3(0, 0, 0) : sampler.vector(6);
       const Vec3& center = world.obstacles[0].center;
       if (touch(world, 0, x, 1, center).gap < 0.001) continue;
+
       const double horizon = 2;
       const FeatureTime found = time_of_impact(world, 0, 1, {center - x, -v, -a, v.norm(), false}, no_feature, horizon);
       compare(

@@ -8,13 +8,13 @@
 namespace carom {
 namespace {
 
-const string start =
+const string one_ball =
     "scene: 1\n"
     "balls: {red: {mass: 1, radius: 0.1, position: [0, 0.2, 0]}}\n"
     "simulate: {duration: 1}\n";
 
-Parts errors_with(const string& written) {
-  return in_parts(errors_of(start + written));
+Parts faults_of(const string& written) {
+  return in_parts(errors_of(one_ball + written));
 }
 
 vector<string> names_of(const Scene& scene) {
@@ -24,7 +24,7 @@ vector<string> names_of(const Scene& scene) {
 }
 
 TEST(HollowObstacles, AreShellsAndThinEnds) {
-  const Scene scene = load_text(start +
+  const Scene scene = load_text(one_ball +
                                 "obstacles:\n"
                                 "  bowl: {inside: true, radius: 1, open: top, position: [0, 0, 0], restitution: 0.5}\n"
                                 "  tube: {inside: true, cylinder: {radius: 0.5, height: 2}, position: [3, 0, 0]}\n"
@@ -45,8 +45,9 @@ TEST(HollowObstacles, AreShellsAndThinEnds) {
 TEST(HollowObstacles, LackTheEndsThatAreOpen) {
   const auto names = [](const string& open) {
     return names_of(load_text(
-        start + "obstacles:\n  t: {inside: true, cylinder: {radius: 1, height: 2}, position: " + "[0, 0, 0], open: " +
-        open + "}\n  b: {inside: true, box: [1, 2, 3], position: " + "[0, 0, 0], open: " + open + "}\n"));
+        one_ball +
+        "obstacles:\n  t: {inside: true, cylinder: {radius: 1, height: 2}, position: " + "[0, 0, 0], open: " + open +
+        "}\n  b: {inside: true, box: [1, 2, 3], position: " + "[0, 0, 0], open: " + open + "}\n"));
   };
   EXPECT_EQ(names("top"),
             (vector<string>{"t.side", "t.bottom", "b.x_min", "b.x_max", "b.y_min", "b.z_min", "b.z_max"}));
@@ -56,7 +57,7 @@ TEST(HollowObstacles, LackTheEndsThatAreOpen) {
 }
 
 TEST(HollowObstacles, HaveNamesAsAWholeAndByParts) {
-  const Scene scene = load_text(start +
+  const Scene scene = load_text(one_ball +
                                 "obstacles:\n"
                                 "  t: {repeat: 2, inside: true, cylinder: {radius: 1, height: 2}, position: "
                                 "['= 5 * i', 0, 0], motion: [{from: 0, until: 1, velocity: [0, 1, 0]}]}\n"
@@ -66,6 +67,7 @@ TEST(HollowObstacles, HaveNamesAsAWholeAndByParts) {
   ASSERT_EQ(pairs.size(), 3u);
   EXPECT_EQ(pairs[0].b_first, 1u);
   EXPECT_EQ(pairs[0].b_count, 6u);
+
   EXPECT_EQ(pairs[1].b_first, 4u);
   EXPECT_EQ(pairs[1].b_count, 3u);
   EXPECT_EQ(pairs[2].b_first, 5u);
@@ -79,45 +81,44 @@ TEST(HollowObstacles, HaveNamesAsAWholeAndByParts) {
 
 TEST(HollowObstacles, MayHoldABodyOrStandBesideIt) {
   const string bowl = "obstacles: {bowl: {inside: true, radius: 1, position: [";
-  EXPECT_EQ(errors_of(start + bowl + "0, 0, 0]}}\n"), "");
-  EXPECT_EQ(errors_of(start + bowl + "3, 0, 0]}}\n"), "");
-  EXPECT_EQ(errors_with(bowl + "0, -0.75, 0]}}\n"),
-            (Parts{{"2:48 [0, 0.2, 0]", "`red` overlaps `bowl` by 0.05 m at the start",
-                    "expected bodies apart, or just touching"}}));
+  EXPECT_EQ(errors_of(one_ball + bowl + "0, 0, 0]}}\n"), "");
+  EXPECT_EQ(errors_of(one_ball + bowl + "3, 0, 0]}}\n"), "");
   EXPECT_EQ(
-      errors_with("obstacles: {t: {inside: true, cylinder: {radius: 0.3, height: 1}, position: [0.25, 0.2, 0]}}\n"),
-      (Parts{{"2:48 [0, 0.2, 0]", "`red` overlaps `t.side` by 0.05 m at the start",
-              "expected bodies apart, or just touching"}}));
+      faults_of(bowl + "0, -0.75, 0]}}\n"),
+      (Parts{{"2:47 [", "`red` overlaps `bowl` by 0.05 m at the start", "expected bodies apart, or just touching"}}));
+  EXPECT_EQ(
+      faults_of("obstacles: {t: {inside: true, cylinder: {radius: 0.3, height: 1}, position: [0.25, 0.2, 0]}}\n"),
+      (Parts{{"2:47 [", "`red` overlaps `t.side` by 0.05 m at the start", "expected bodies apart, or just touching"}}));
 }
 
 TEST(HollowObstacles, RefuseKeysThatContradictOneAnother) {
   EXPECT_EQ(
-      errors_with("obstacles: {a: {radius: 1, position: [5, 0, 0], open: top}}\n"),
+      faults_of("obstacles: {a: {radius: 1, position: [5, 0, 0], open: top}}\n"),
       (Parts{{"4:55 top", "`a` has an opening and is solid", "expected `inside: true` beside `open`, or no `open`"}}));
-  EXPECT_EQ(errors_with("obstacles: {a: {inside: true, radius: 1, position: [5, 0, 0], open: both}}\n"),
+  EXPECT_EQ(faults_of("obstacles: {a: {inside: true, radius: 1, position: [5, 0, 0], open: both}}\n"),
             (Parts{{"4:69 both", "a sphere is open at the top or at the bottom, not at both",
                     "expected `open: top`, its lower half, `open: bottom`, its upper half, or a `cylinder`"}}));
-  EXPECT_EQ(errors_with("obstacles: {a: {inside: 1, radius: 1, position: [5, 0, 0]}}\n"),
-            (Parts{{"4:25 1", "`1` is neither true nor false", "expected true or false"}}));
-  EXPECT_EQ(errors_with("obstacles: {a: {inside: true, radius: 1, position: [5, 0, 0], open: left}}\n"),
-            (Parts{{"4:69 left", "unknown word `left` for `open`", "expected none, top, bottom or both"}}));
+  EXPECT_EQ(faults_of("obstacles: {a: {inside: 1, radius: 1, position: [5, 0, 0]}}\n"),
+            (Parts{{"4:25 1", "`inside` is `1`", "expected true or false"}}));
+  EXPECT_EQ(faults_of("obstacles: {a: {inside: true, radius: 1, position: [5, 0, 0], open: left}}\n"),
+            (Parts{{"4:69 left", "`open` is `left`", "expected none, top, bottom or both"}}));
 }
 
 TEST(HollowObstacles, RefuseBodiesThatCannotMeetThem) {
   const string tube = "obstacles: {t: {inside: true, cylinder: {radius: 0.5, height: 1}, position: [5, 0, 0]";
-  EXPECT_EQ(errors_with("bodies: {crate: {mass: 1, box: [1, 1, 1], position: [0, 5, 0]}}\n" + tube + "}}\n"),
+  EXPECT_EQ(faults_of("bodies: {crate: {mass: 1, box: [1, 1, 1], position: [0, 5, 0]}}\n" + tube + "}}\n"),
             (Parts{{"5:25 true", "`t` is round and hollow, which only balls can meet, and `crate` is a box",
                     "expected balls alone, or a hollow `box`, which all bodies can meet"}}));
-  EXPECT_EQ(errors_of(start + "bodies: {crate: {mass: 1, box: [1, 1, 1], position: [0, 5, 0]}}\n"
-                              "obstacles: {t: {inside: true, box: [3, 3, 3], position: [0, 5, 0]}}\n"),
+  EXPECT_EQ(errors_of(one_ball + "bodies: {crate: {mass: 1, box: [1, 1, 1], position: [0, 5, 0]}}\n"
+                                 "obstacles: {t: {inside: true, box: [3, 3, 3], position: [0, 5, 0]}}\n"),
             "");
 
   const string large =
       "groups: {big: {count: 1, ball: {mass: 1, radius: 0.5}, in: {min: [0, 5, 0], max: [1, 6, 1]}}}\n";
-  EXPECT_EQ(errors_with(large + tube + ", open: top}}\n"),
+  EXPECT_EQ(faults_of(large + tube + ", open: top}}\n"),
             (Parts{{"5:94 top", "`big.0`, of radius 0.5 m, is too wide for the opening of `t`, of radius 0.5 m",
                     "a ball cannot lie on a rim all around: expected narrower balls, or `open: none`"}}));
-  EXPECT_EQ(errors_of(start + large + tube + "}}\n"), "");
+  EXPECT_EQ(errors_of(one_ball + large + tube + "}}\n"), "");
 }
 
 TEST(HollowObstacles, RefuseBallsThatMayMergeIntoAWiderOne) {

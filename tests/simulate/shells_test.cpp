@@ -37,6 +37,7 @@ TEST(Shells, ABallInAHollowSphereFollowsAPolygonOfReflections) {
   problem.shell({0, 0, 0}, 1.25);
   problem.options.duration = 0.4 + 1000.5 * 0.8;
   const Outcome run = run_exact(problem);
+
   ASSERT_EQ(run.collisions.size(), 1001u);
   for (size_t k = 0; k < run.collisions.size(); ++k) {
     const Collision& c = run.collisions[k];
@@ -55,6 +56,7 @@ TEST(Shells, BouncesOnADiameterSlowDownByTheRestitution) {
     problem.shell({0, 0, 0}, 1.25);
     problem.options.duration = 20;
     const Outcome run = run_exact(problem);
+
     double time = 0, way = 1, speed = 2;
     for (const Collision& c : run.collisions) {
       time += way / speed;
@@ -151,10 +153,12 @@ TEST(Shells, AHollowSphereIsAStringThatPushes) {
       const Entity ball = problem->ball({0.3, 0.2, -0.1}, {1, 2, 0.5}, 1, 0.1, kind.e);
       if (problem == &hollow) problem->shell({0, 0, 0}, 1);
       if (problem == &tied) problem->anchored(ball, {0, 0, 0}, 0.9).restitution = kind.e;
+
       if (kind.drag > 0) problem->world.forces.push_back({Drag{kind.drag, 0, Vec3::Zero()}});
       if (kind.spring) problem->world.forces.push_back({Spring{Vec3(0.3, 0.1, 0), 3, 0.3, 0}});
       problem->options.duration = 3;
     }
+
     const Outcome a = run_exact(hollow), b = run_exact(tied);
     ASSERT_EQ(a.collisions.size(), b.collisions.size()) << kind.drag;
     EXPECT_GT(a.collisions.size(), 1u);
@@ -256,7 +260,7 @@ TEST(Shells, NoBallPassesOneUnderAnyForces) {
     if (k % 3 == 1) problem.world.forces.push_back({Drag{0.5, 0, Vec3::Zero()}});
     if (k % 3 == 2) problem.world.forces.push_back({Spring{Vec3(0.2, 0.4, 0.1), 5, 0.3, 0.05}});
     problem.plane({0, -1.5, 0}, {0, 1, 0});
-    const World empty = problem.world;
+
     for (int n = 0; n < 4; ++n) {
       const Vec3 x = Vec3(0.25 * of(), 0.35 * n - 0.4, 0.25 * of());
       problem.ball(x, 4 * Vec3(of(), of(), of()), 1, 0.08 + 0.04 * n, 0.2 * n);
@@ -279,10 +283,12 @@ TEST(Shells, ManyBallsInATubeAndInASphereComeToRest) {
       const Vec3 at(n % 4 - 1.5, n / 16 - 1.5, n / 4 % 4 - 1.5);
       problem.ball(0.27 * at + 0.01 * in_cube(random, 0.5), {0, 0, 0}, 1, 0.12, 0.5);
     }
+
     if (tube)
       problem.tube({0, 0, 0}, 0.8, 1.6);
     else
       problem.shell({0, 0, 0}, 0.9);
+
     // In a smooth sphere a heap would swing without end.
     if (!tube) problem.world.forces.push_back({Drag{2, 0, Vec3::Zero()}});
     problem.options.duration = 20;
@@ -306,11 +312,13 @@ TEST(Shells, ACrowdThatTurnsInATubeKeepsItsMoment) {
   }
   problem.tube({0, 0, 0}, 0.72, 1);
   problem.options.duration = 5;
+
   const auto moment = [&](const State& state) {
     double sum = 0;
     for (size_t i = 0; i < state.position.size(); ++i) sum += state.position[i].cross(state.velocity[i]).y();
     return sum;
   };
+
   const Outcome run = run_exact(problem);
   EXPECT_NEAR(moment(run.end) / moment(problem.initial), 1, 1e-3);
 }

@@ -401,8 +401,8 @@ bool CrowdSteps::give_up_returns(Crowd& crowd) {
   return any;
 }
 
-/// Sweeps over the pairs that would overlap by more than rounding (m), and those that overlap because of that. Others have
-/// slack. Returns whether there were some.
+/// Sweeps over the pairs that would overlap by more than rounding (m), and those that overlap because of that. Others
+/// have slack. Returns whether there were some.
 bool CrowdSteps::keep_apart(Crowd& crowd, double rounding) {
   vector<uint8_t> marks(crowd.rows.groups(), 0);
   for (int sweep = 0; sweep < tol::more_sweeps; ++sweep) {
