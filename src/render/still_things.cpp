@@ -120,31 +120,35 @@ class Collector {
     return placed(mesh, volume.half, obstacle.center);
   }
 
-  /// A part of a hollow obstacle, as it is seen from within.
+  /// A part of a hollow obstacle, as it is seen from within: a face that looks `inward`, or the back of what is round.
   static Mesh shell_mesh(const Obstacle& obstacle, const Vec3& inward) {
+    const bool flat = !inward.isZero(0);
     const Mesh whole = shape(obstacle.volume.shape);
-    Mesh mesh{whole.vertices, whole.normals, {}};
-
-    // Which of its triangles there are.
-    const auto kept = [&](const Vec3& middle, const Vec3& normal) {
-      if (!inward.isZero(0)) return normal.dot(inward) > 0.5;
+    const auto is_part = [&](const Vec3& middle, const Vec3& normal) {
+      if (flat) return normal.dot(inward) > 0.5;
       return obstacle.hollow == Hollow::side         ? std::abs(normal.y()) < 0.5
              : obstacle.hollow == Hollow::lower_half ? middle.y() < 0
              : obstacle.hollow == Hollow::upper_half ? middle.y() > 0
                                                      : true;
     };
 
-    for (size_t t = 0; t < whole.triangles.size(); t += 3) {
-      const uint32_t a = whole.triangles[t], b = whole.triangles[t + 1], c = whole.triangles[t + 2];
-      const Vec3 middle = (whole.vertices[a] + whole.vertices[b] + whole.vertices[c]) / 3;
-      const Vec3 normal = whole.normals[a] + whole.normals[b] + whole.normals[c];
-      if (!kept(middle, normal)) continue;
-      // A flat part keeps the face that looks inward. What is round shows its other side.
-      mesh.triangles.insert(mesh.triangles.end(), {a, inward.isZero(0) ? c : b, inward.isZero(0) ? b : c});
-    }
+    // Only the vertices of its triangles, so that its extent is its own.
+    Mesh mesh;
+    map<uint32_t, uint32_t> numbers;
+    const auto number = [&](uint32_t vertex) {
+      const auto [known, fresh] = numbers.try_emplace(vertex, uint32_t(mesh.vertices.size()));
+      if (!fresh) return known->second;
+      mesh.vertices.emplace_back(obstacle.center + obstacle.volume.half.cwiseProduct(whole.vertices[vertex]));
+      mesh.normals.emplace_back(flat ? inward : Vec3(-whole.normals[vertex]));
+      return known->second;
+    };
 
-    for (Vec3& vertex : mesh.vertices) vertex = obstacle.center + obstacle.volume.half.cwiseProduct(vertex);
-    for (Vec3& normal : mesh.normals) normal = inward.isZero(0) ? Vec3(-normal) : inward;
+    for (size_t t = 0; t < whole.triangles.size(); t += 3) {
+      const uint32_t i = whole.triangles[t], j = whole.triangles[t + 1], k = whole.triangles[t + 2];
+      const Vec3 middle = whole.vertices[i] + whole.vertices[j] + whole.vertices[k];
+      if (!is_part(middle, whole.normals[i] + whole.normals[j] + whole.normals[k])) continue;
+      for (const uint32_t vertex : {i, flat ? j : k, flat ? k : j}) mesh.triangles.push_back(number(vertex));
+    }
     return mesh;
   }
 
