@@ -45,7 +45,10 @@ PairKind pair_kind(const World& world, Entity a, Entity b) {
     if (in_line(shape, world.wall(b))) return PairKind::prism;
     return shape == Shape::box ? PairKind::box_wall : PairKind::cylinder_wall;
   }
-  if (!world.is_body(b) && world.is_string(b)) return PairKind::string;
+  if (!world.is_body(b)) {
+    if (world.is_string(b)) return PairKind::string;
+    if (world.obstacle(b).hollow != Hollow::none) return PairKind::shell;
+  }
   return shape == Shape::sphere && world.volume_of(b).shape == Shape::sphere ? PairKind::spheres : PairKind::prism;
 }
 

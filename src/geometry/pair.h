@@ -15,6 +15,7 @@ enum class PairKind : uint8_t {
   prism,          // volumes, and walls along the same axes
   box_wall,       // a wall at an angle: slabs
   cylinder_wall,  // a wall at an angle: slabs and oblique cylinders
+  shell,          // a ball inside or outside of a hollow thing
   string          // the inside of a sphere about the other end
 };
 

@@ -6,8 +6,7 @@
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
 #include "geometry/relative_way.h"
-#include "numerics/bernstein.h"
-#include "numerics/compensated.h"
+#include "geometry/shell.h"
 #include "numerics/cube_root.h"
 #include "physics/world.h"
 #include "std.h"
@@ -65,6 +64,23 @@ FeatureTime meet_round(const Way& way, const World& world, Entity a, const Vec3&
   return {never, no_feature};
 }
 
+/// The same for a ball and a shell, piece by piece. One polynomial is accurate in each.
+template <typename Way>
+FeatureTime meet_shell(const Way& way, const World& world, Entity a, Entity b, const Vec3& d, double speeds,
+                       uint8_t left, double horizon) {
+  const Shell shell(world.obstacle(b));
+  const double r = world.volume_of(a).half.x();
+  for (double t = 0; t < horizon;) {
+    const double length = min(horizon - t, way.span(t));
+    const FeatureTime first = shell.contact_time(r, d + way.displacement(t), way.displacement_from(t, length), length,
+                                                 speeds, t == 0 ? left : no_feature, length);
+    if (first.time < never) return {t + first.time, first.feature};
+    if (!(t + length > t)) break;
+    t += length;
+  }
+  return {never, no_feature};
+}
+
 template <typename Way>
 FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& xb,
                                  double speeds, uint8_t left, double horizon) {
@@ -77,6 +93,9 @@ FeatureTime time_of_impact_along(const Way& way, const World& world, Entity a, c
     case PairKind::half_space:
     case PairKind::sphere_wall:
       return meet_round(way, world, a, xa, b, xb, speeds, left, horizon);
+
+    case PairKind::shell:
+      return meet_shell(way, world, a, b, xb - xa, speeds, left, horizon);
     case PairKind::string:
       return {never, no_feature};
     default:
@@ -101,29 +120,7 @@ FeatureTime time_of_impact(const World& world, Entity a, const Vec3& xa, Entity 
 
 double taut_time(const Vec3& d, const PolynomialPath::Terms& displacement, double length, double s, double speeds,
                  bool just_separated, double horizon) {
-  // s^2 - |d + displacement|^2, by t / length.
-  array<double, 2 * PolynomialPath::terms + 1> gap{};
-  gap[0] = just_separated ? 0 : -squared_gap(d, s);
-  for (size_t k = 0; k < PolynomialPath::terms; ++k) {
-    gap[k + 1] -= 2 * d.dot(displacement[k]);
-    for (size_t j = 0; j < PolynomialPath::terms; ++j) gap[k + j + 2] -= displacement[k].dot(displacement[j]);
-  }
-
-  const bool closed = gap[0] <= 0x1p-51 * s * s;
-  if (closed && std::abs(gap[1]) <= 0x1p-48 * length * speeds * s) gap[1] = 0;
-  if (closed) gap[0] = 0;
-
-  const auto first = ranges::find_if(gap, [](double c) { return c != 0; });
-  if (first == gap.end()) return never;
-  if (*first < 0) return 0;
-
-  // Without the root at t = 0.
-  for (const double at : roots_in_unit({first, gap.end()})) {
-    const Vec3 there = d + PolynomialPath::value(displacement, at);
-    if (there.dot(PolynomialPath::slope(displacement, at)) <= 0) continue;
-    return length * at <= horizon ? length * at : never;
-  }
-  return never;
+  return distance_time(d, displacement, length, s, Side::inside, speeds, just_separated, horizon);
 }
 
 FeatureTime leave_feature(const World& world, Entity a, const FadingPath& pa, Entity b, const FadingPath& pb,

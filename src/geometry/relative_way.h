@@ -60,6 +60,14 @@ class FadingWay {
     return first_descent(distance, horizon);
   }
   double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
+  /// The displacement from t on, for `length` (s), by parts of that, and for how long that is accurate (s).
+  PolynomialPath::Terms displacement_from(double t, double length) const {
+    PolynomialPath::Terms terms = pb_.displacement_from(t, length);
+    const PolynomialPath::Terms of_a = pa_.displacement_from(t, length);
+    for (size_t k = 0; k < terms.size(); ++k) terms[k] -= of_a[k];
+    return terms;
+  }
+  double span(double t) const { return min(pa_.span(t), pb_.span(t)); }
   FadingWay in(const auto& frame) const {
     FadingWay way = *this;
     for (Vec3* v : {&way.pa_.v, &way.pa_.a, &way.pb_.v, &way.pb_.a}) *v = frame.to(*v);
@@ -91,6 +99,10 @@ class PolynomialWay {
     return s == never ? never : s * length_;
   }
   double back(const Vec3& n, double t, double rate, double horizon) const { return descent(n, t, 0, rate, horizon); }
+  PolynomialPath::Terms displacement_from(double t, double length) const {
+    return PolynomialPath::shifted(terms_, t / length_, length / length_);
+  }
+  double span(double) const { return infinity; }
   PolynomialWay in(const auto& frame) const {
     PolynomialWay way = *this;
     for (Vec3& term : way.terms_) term = frame.to(term);

@@ -3,6 +3,7 @@
 // feature, where there is one.
 #include "geometry/conservative_advancement.h"
 #include "geometry/pair.h"
+#include "geometry/shell.h"
 #include "physics/world.h"
 #include "std.h"
 
@@ -46,6 +47,8 @@ FeatureTime time_of_impact_by_kind(const World& world, Entity a, Entity b, const
 
     case PairKind::sphere_wall:
       return wall_contact_time(world.wall(b), motion, world.volume_of(a).half.x(), left, horizon);
+    case PairKind::shell:
+      return Shell(world.obstacle(b)).contact_time(world.volume_of(a).half.x(), motion, left, horizon);
     case PairKind::string: {
       RelativeMotion m = motion;
       m.just_separated = left != no_feature;
@@ -64,6 +67,7 @@ FeatureTime leave_feature(const World& world, Entity a, Entity b, uint8_t featur
                           double horizon) {
   const PairKind kind = pair_kind(world, a, b);
   if (kind == PairKind::spheres || kind == PairKind::half_space || kind == PairKind::string) return {never, no_feature};
+  if (kind == PairKind::shell) return Shell(world.obstacle(b)).leave(feature, motion, horizon);
   const bool of_wall = kind == PairKind::sphere_wall;
   if (of_wall && feature < wall_edges) return wall_release_time(world.wall(b), motion, horizon);
 

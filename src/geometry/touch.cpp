@@ -4,6 +4,7 @@
 #include "geometry/touch.h"
 
 #include "geometry/pair.h"
+#include "geometry/shell.h"
 #include "numerics/compensated.h"
 #include "physics/world.h"
 #include "std.h"
@@ -35,6 +36,13 @@ Touch touch_spheres(const Vec3& xa, double ra, const Vec3& xb, double rb) {
 Touch touch_string(const Vec3& xa, const Vec3& xb, double length) {
   const Touch points = touch_spheres(xa, 0, xb, length);
   return {-points.gap, -points.normal, xa, 0};
+}
+
+Touch touch_shell(const Obstacle& obstacle, const Vec3& xa, double r, const Vec3& xb, uint8_t feature) {
+  const Shell shell(obstacle);
+  const Vec3 p = xa - xb;
+  const Separation s = shell.at(p, r, feature == no_feature ? shell.nearest(p) : feature);
+  return {s.gap + s.normal.dot(lost_in_difference(xa, xb)), s.normal, xa + r * s.normal, s.feature};
 }
 
 Touch touch_plane(const Plane& plane, const Vec3& point, const Volume& volume, const Vec3& x) {
@@ -191,6 +199,8 @@ Touch touch(const World& world, Entity a, const Vec3& xa, Entity b, const Vec3& 
         return touch_at_an_angle(sum, world.volume_of(a), world.wall(b), xa, xb, feature);
       });
 
+    case PairKind::shell:
+      return touch_shell(world.obstacle(b), xa, world.volume_of(a).half.x(), xb, feature);
     case PairKind::string:
       return touch_string(xa, xb, world.string(b).length);
   }
@@ -206,6 +216,8 @@ double bending(const World& world, Entity a, const Vec3& xa, Entity b, const Vec
       return w.cross(touch.normal).squaredNorm() / d.norm();
     case PairKind::half_space:
       return 0;
+    case PairKind::shell:
+      return Shell(world.obstacle(b)).bending(xa - xb, touch.feature, w);
     case PairKind::string:
       return -w.cross(touch.normal).squaredNorm() / d.norm();
 
@@ -222,8 +234,10 @@ bool is_flat(const World& world, Entity a, Entity b, uint8_t feature) {
   const PairKind kind = pair_kind(world, a, b);
   switch (kind) {
     case PairKind::spheres:
+    case PairKind::shell:
     case PairKind::string:
       return false;
+
     case PairKind::half_space:
       return true;
     case PairKind::sphere_wall:

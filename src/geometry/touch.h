@@ -7,6 +7,7 @@
 // - sphere and cylinder: a cylinder with a rim rounded as a torus
 // - box and cylinder: a rounded prism
 // - two boxes: a box
+// A shell (shell.h) meets balls alone.
 // A string is the inside of a sphere about its other end. Its position is that of the other end: of a body, or the
 // anchor. Its gap is its length less the distance, and its normal points from the other end to the body.
 
@@ -23,9 +24,9 @@ struct Touch {
   Vec3 normal;
   // m, the closest point on a's surface, or the middle of an area of them.
   Vec3 point;
-  // The nearest face, edge, corner or rim of the Minkowski sum. It is 0 for two spheres, planes and strings, and a
-  // WallFeature for a sphere and a wall. Other pairs number features as in round_prism.h, slab_sum.h or tilted_sum.h
-  // (walls at an angle).
+  // The nearest face, edge, corner or rim of the Minkowski sum. It is 0 for two spheres, planes and strings, a
+  // WallFeature for a sphere and a wall, and a ShellFeature for a sphere and a shell. Other pairs number features as in
+  // round_prism.h, slab_sum.h or tilted_sum.h (walls at an angle).
   uint8_t feature;
 };
 

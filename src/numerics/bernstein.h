@@ -6,19 +6,22 @@
 
 namespace carom {
 
-struct Bernstein {
-  static constexpr size_t most_degree = 16;
+template <size_t most>
+struct BernsteinUpTo {
+  static constexpr size_t most_degree = most;
   array<double, most_degree + 1> b{};
   size_t degree = 0;
 
   /// From the coefficients of powers, a[0] + a[1] s + ... + a[degree] s^degree.
-  static Bernstein of_powers(const array<double, most_degree + 1>& a, size_t degree);
+  static BernsteinUpTo of_powers(const array<double, most_degree + 1>& a, size_t degree);
   int changes() const;
   /// Leaves the left half, and returns the right half (de Casteljau).
-  Bernstein split();
+  BernsteinUpTo split();
 };
 
-/// Every root of c[0] + c[1] s + ... in (0, 1), in ascending order, to rounding of s. The degree is at most 16.
+using Bernstein = BernsteinUpTo<16>;
+
+/// Every root of c[0] + c[1] s + ... in (0, 1), in ascending order, to rounding of s. The degree is at most 32.
 /// Roots closer together than that count once. A point that rounding does not tell from a root may be among them.
 /// The zero polynomial has none.
 vector<double> roots_in_unit(span<const double> coefficients);

@@ -9,10 +9,12 @@ namespace carom {
 
 namespace {
 
+/// A part of a hollow thing has no thickness, which does not count.
 double smallest_of(const Volume& volume) {
-  if (volume.shape == Shape::sphere) return volume.half.x();
-  if (volume.shape == Shape::cylinder) return min(volume.half.x(), 2 * volume.half.y());
-  return 2 * volume.half.minCoeff();
+  double smallest = volume.shape == Shape::box ? infinity : volume.half.x();
+  for (int k = 0; k < 3; ++k)
+    if (volume.half[k] > 0) smallest = min(smallest, 2 * volume.half[k]);
+  return smallest;
 }
 
 }  // namespace

@@ -36,6 +36,18 @@ FadingPath FadingPath::from(double t) const {
   return t == 0 ? *this : FadingPath{position(t), velocity(t), acceleration(t), fade};
 }
 
+// The Taylor series. Its terms fall fast within the span.
+PolynomialPath::Terms FadingPath::displacement_from(double t, double length) const {
+  PolynomialPath::Terms terms;
+  terms.fill(Vec3::Zero());
+  terms[0] = length * velocity(t);
+  terms[1] = (0.5 * length * length) * acceleration(t);
+  // In the second case the acceleration has decayed.
+  if (fade == 0 || !(fade * length < 1)) return terms;
+  for (size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / double(k + 1)) * terms[k - 1];
+  return terms;
+}
+
 double FadingPath::squared_speed(double t) const {
   // s is here the integral of the velocity's share of a: s' = 1 - fade s. Hence fade times the integral of s^2 is t^2
   // bend - s^2/2. Integrals of s and of s^2 over [0, t], here without drag. Their units are s^2 and s^3.

@@ -1,7 +1,9 @@
 #pragma once
 // Flight under constant forces and linear drag, x'' = pull - fade x'. The path bends towards the velocity pull / fade.
 // The acceleration decays as exp(-fade t). Only + - * / reach the result.
+#include "numerics/polynomial_path.h"
 #include "numerics/vec3.h"
+#include "std.h"
 
 namespace carom {
 
@@ -35,6 +37,12 @@ struct FadingPath {
   Vec3 acceleration(double t) const;
   /// The same path with its start at time t.
   FadingPath from(double t) const;
+  /// The displacement from t on, for `length` (s), as a polynomial in parts of it (m). The length is at most span(t)
+  /// (s).
+  PolynomialPath::Terms displacement_from(double t, double length) const;
+  /// The time (s) from t on for which that is right to rounding. After the acceleration has decayed the path is
+  /// straight.
+  double span(double t) const { return fade == 0 || fade * t >= 64 ? infinity : 0x1p-4 / fade; }
   /// The integral of the squared speed over [0, t] (m^2/s).
   double squared_speed(double t) const;
 };

@@ -31,11 +31,22 @@ struct Wall {
   optional<double> restitution;  // none: the moving body's
 };
 
+/// What there is of an obstacle: its whole volume, or part of its surface alone. That is a shell: it has two sides and
+/// no thickness, as a wall has, and balls alone meet it.
+enum class Hollow : uint8_t {
+  none,        // a solid obstacle
+  whole,       // a sphere
+  lower_half,  // of a sphere, open at the top
+  upper_half,  // of a sphere, open at the bottom
+  side         // of a cylinder, without its ends
+};
+
 /// A body that no impact moves.
 struct Obstacle {
   Vec3 center;  // m
   Volume volume;
   optional<double> restitution;  // none: the moving body's
+  Hollow hollow = Hollow::none;
 };
 
 /// An inextensible, massless string between the centres of two bodies, or of a body and a fixed point. It is slack
@@ -114,6 +125,7 @@ struct World {
   bool is_plane(Entity e) const { return e >= body_count() && e - body_count() < planes.size(); }
   bool is_wall(Entity e) const { return e >= walls_from() && e < obstacles_from(); }
   bool is_obstacle(Entity e) const { return e >= obstacles_from() && e < strings_from(); }
+  bool is_shell(Entity e) const { return is_obstacle(e) && obstacle(e).hollow != Hollow::none; }
   bool is_string(Entity e) const { return e >= strings_from() && e - strings_from() < strings.size(); }
   const Plane& plane(Entity e) const { return planes[e - body_count()]; }
   const Wall& wall(Entity e) const { return walls[e - walls_from()]; }

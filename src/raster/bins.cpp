@@ -40,7 +40,7 @@ void Bins::fill(const Shot& shot, const Silhouettes& silhouettes) {
     tiles_[i] = in_tiles(silhouettes.of(i).bounds);
 
     // Of balls smaller than a pixel the darkening is not seen.
-    const bool takes = solid.kind != SolidKind::wall && solid.radius > shot.lens.pixel * nearest;
+    const bool takes = solid.kind != SolidKind::wall && !solid.shell && solid.radius > shot.lens.pixel * nearest;
     around_[i] = {solid.center, takes ? solid.radius : 0};
     largest_around_ = std::max(largest_around_, around_[i].radius);
 

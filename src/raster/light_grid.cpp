@@ -136,6 +136,7 @@ void LightGrid::find_rects(const Shot& shot) {
   for (size_t i = 0; i < shot.solids.size(); ++i) {
     const Solid& s = shot.solids[i];
     first_rect_[i] = uint32_t(rects_.size());
+    if (s.shell) continue;
 
     if (!key.near) {
       const float a = dot(e.u, s.center), b = dot(e.v, s.center);

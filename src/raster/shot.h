@@ -16,6 +16,8 @@ inline constexpr float faintest = 8;
 /// A blur may be as wide as the part of the edge that a pixel shows, up to so many radii.
 inline constexpr float narrowest = 0.25F;
 
+inline constexpr float far_off = 1e30F;
+
 /// The number of a solid in a picture is its index. Opaque solids are sorted by the picture, not by the caller.
 struct Solid {
   Float3 center{};
@@ -26,6 +28,10 @@ struct Solid {
   float glow = 0;            // 0 to 1: the share of its light that is its own, which is white
   uint32_t part = 0;         // walls, meshes: index into Shot::walls, Shot::meshes
   bool shadow_only = false;  // out of view
+  bool shell = false;        // of a hollow thing: it takes no light from others
+  // A hollow ball, or a cylinder without ends: its far side alone is seen, from within.
+  bool hollow = false;
+  float low = -far_off, high = far_off;  // m: heights above its centre between which a hollow solid extends
 };
 
 /// Unit vectors of a wall.

@@ -108,6 +108,7 @@ class Collector {
   Mesh obstacle_mesh(const Obstacle& obstacle, const FixedLook& name) {
     if (!name.visible) return {};
     const Volume& volume = obstacle.volume;
+    if (obstacle.hollow != Hollow::none || !name.inward.isZero(0)) return shell_mesh(obstacle, name.inward);
     if (name.mesh) {
       MeshUse use = *name.mesh;
       use.own_colors = use.own_colors && painted_;
@@ -117,6 +118,38 @@ class Collector {
     const Mesh& mesh =
         known != shapes_.end() ? known->second : shapes_.emplace(volume.shape, shape(volume.shape)).first->second;
     return placed(mesh, volume.half, obstacle.center);
+  }
+
+  /// A part of a hollow obstacle, as it is seen from within: a face that looks `inward`, or the back of what is round.
+  static Mesh shell_mesh(const Obstacle& obstacle, const Vec3& inward) {
+    const bool flat = !inward.isZero(0);
+    const Mesh whole = shape(obstacle.volume.shape);
+    const auto is_part = [&](const Vec3& middle, const Vec3& normal) {
+      if (flat) return normal.dot(inward) > 0.5;
+      return obstacle.hollow == Hollow::side         ? std::abs(normal.y()) < 0.5
+             : obstacle.hollow == Hollow::lower_half ? middle.y() < 0
+             : obstacle.hollow == Hollow::upper_half ? middle.y() > 0
+                                                     : true;
+    };
+
+    // Only the vertices of its triangles, so that its extent is its own.
+    Mesh mesh;
+    map<uint32_t, uint32_t> numbers;
+    const auto number = [&](uint32_t vertex) {
+      const auto [known, fresh] = numbers.try_emplace(vertex, uint32_t(mesh.vertices.size()));
+      if (!fresh) return known->second;
+      mesh.vertices.emplace_back(obstacle.center + obstacle.volume.half.cwiseProduct(whole.vertices[vertex]));
+      mesh.normals.emplace_back(flat ? inward : Vec3(-whole.normals[vertex]));
+      return known->second;
+    };
+
+    for (size_t t = 0; t < whole.triangles.size(); t += 3) {
+      const uint32_t i = whole.triangles[t], j = whole.triangles[t + 1], k = whole.triangles[t + 2];
+      const Vec3 middle = whole.vertices[i] + whole.vertices[j] + whole.vertices[k];
+      if (!is_part(middle, whole.normals[i] + whole.normals[j] + whole.normals[k])) continue;
+      for (const uint32_t vertex : {i, flat ? j : k, flat ? k : j}) mesh.triangles.push_back(number(vertex));
+    }
+    return mesh;
   }
 
   static Mesh shape(Shape shape) {

@@ -109,6 +109,35 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   shot.solids.push_back(solid);
 }
 
+/// Adds a part of a hollow obstacle: what is seen of it from within. A flat one faces `inward`.
+void Things::add_shell(const Obstacle& obstacle, const Vec3& inward, const Look& look, const Eye& eye,
+                       raster::Shot& shot) {
+  Volume volume = obstacle.volume;
+  Vec3 center = obstacle.center;
+  const bool flat = obstacle.hollow == Hollow::none;
+  if (flat) {
+    // A thin plate behind the surface, so that it has two sides.
+    const Vec3 thin = 0x1p-9 * volume.half.maxCoeff() * inward;
+    center -= thin;
+    volume.half += thin.cwiseAbs();
+  }
+  add(center, volume, volume.reach(), look, false, eye, shot);
+
+  raster::Solid& solid = shot.solids.back();
+  solid.shell = true;
+  if (flat) {
+    solid.shadow_only = solid.shadow_only || !(inward.dot(eye.camera.eye - obstacle.center) > 0);
+    return;
+  }
+  solid.hollow = true;
+  if (obstacle.hollow == Hollow::whole || obstacle.hollow == Hollow::lower_half ||
+      obstacle.hollow == Hollow::upper_half)
+    solid.shadow_only = !eye.may_see(eye.point(center), volume.reach());
+  if (obstacle.hollow == Hollow::lower_half) solid.high = 0;
+  if (obstacle.hollow == Hollow::upper_half) solid.low = 0;
+  if (obstacle.hollow == Hollow::side) solid.low = -float(volume.half.y()), solid.high = float(volume.half.y());
+}
+
 void Things::take_mean(const Look& look, raster::Shot& shot) {
   if (!look.size.mean) return;
   raster::Float3& color = shot.solids.back().color;
@@ -161,6 +190,11 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   size_t number = world.body_count();
   for (const uint32_t i : obstacles_) {
     const Obstacle& obstacle = world.obstacles[i];
+    const Vec3& inward = look_of_obstacle(scene_, i).inward;
+    if (obstacle.hollow != Hollow::none || !inward.isZero(0)) {
+      add_shell(obstacle, inward, looks_[number++], eye, shot);
+      continue;
+    }
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[number], looks_[number].mesh.has_value(), eye,
         shot);
     take_mean(looks_[number], shot);

@@ -80,6 +80,7 @@ class Things {
   Look look_of(const Color& color, const optional<MeshUse>& mesh);
   void add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
            raster::Shot& shot);
+  void add_shell(const Obstacle& obstacle, const Vec3& inward, const Look& look, const Eye& eye, raster::Shot& shot);
   /// Gives the last solid the mean of its mesh's own colours, for the light that it sends and where it is tiny.
   void take_mean(const Look& look, raster::Shot& shot);
   void add_walls(const Eye& eye, raster::Shot& shot) const;

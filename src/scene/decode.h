@@ -30,7 +30,8 @@ struct FixedEntry {
   const Key* key;
   View view;
   Entity first = 0;  // its number among the fixed things
-  Entity count = 1;  // six for a room
+  Entity count = 1;  // several for a room and a hollow thing
+  vector<string_view> parts{};  // their names, if they have any
 };
 
 /// Share of the coordinates: a smaller region, or a shorter string, is lost in the rounding of positions.

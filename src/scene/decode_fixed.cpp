@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "scene/decode.h"
 #include "scene/fields.h"
+#include "scene/hollow.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -14,11 +15,13 @@
 namespace carom {
 namespace {
 
-constexpr string_view face_names[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
-
 void add_plane(const PlaneKeys& plane, const string& name, Scene& scene) {
   scene.world.planes.push_back({plane.point, unit(plane.normal), plane.restitution});
   scene.roster.fixed.push_back({name, plane.color, plane.visible});
+}
+
+string part_of(const string& name, string_view part) {
+  return part.empty() ? name : name + "." + string(part);
 }
 
 void add_room(const View& view, const string& name, Scene& scene, Diagnostics& diagnostics) {
@@ -31,13 +34,14 @@ void add_room(const View& view, const string& name, Scene& scene, Diagnostics& d
   }
 
   // Each side faces inward.
+  const vector<string_view> names = part_names(view);
   for (int side = 0; side < 6; ++side) {
     const int axis = side / 2;
     Vec3 normal = Vec3::Zero();
     normal[axis] = side % 2 == 0 ? 1 : -1;
     const optional<Vec3>& corner = side % 2 == 0 ? room.min : room.max;
     scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, room.restitution});
-    scene.roster.fixed.push_back({name + "." + string(face_names[side]), room.color, room.visible});
+    scene.roster.fixed.push_back({part_of(name, names[size_t(side)]), room.color, room.visible});
   }
 }
 
@@ -62,12 +66,15 @@ void add_wall(const View& view, const string& name, Scene& scene, Diagnostics& d
   scene.roster.fixed.push_back({name, wall.color, wall.visible});
 }
 
-void add_obstacle(const View& view, const string& name, Forms& forms, Scene& scene) {
+void add_obstacle(const View& view, const string& name, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
   const auto obstacle = filled<ObstacleKeys>(view);
   // The volume of an obstacle with errors is empty.
   const Form form = forms.of(obstacle, view.find("color") != nullptr).value_or(Form{});
-  scene.world.obstacles.push_back({obstacle.position, form.volume, obstacle.restitution});
-  scene.roster.fixed.push_back({name, obstacle.color, obstacle.visible, form.mesh});
+  check_hollow_keys(view, name, diagnostics);
+  for (const HollowPart& part : parts_of_obstacle(obstacle, form.volume)) {
+    scene.world.obstacles.push_back(part.obstacle);
+    scene.roster.fixed.push_back({part_of(name, part.name), obstacle.color, obstacle.visible, form.mesh, part.inward});
+  }
 }
 
 /// The motion in windows that repeat after `every` (s).
@@ -122,9 +129,11 @@ SurfaceMotion on_circle(const View& motion, const CircleKeys& keys, const Vec3& 
   return {};
 }
 
-/// Lets the thing that was decoded last move. `place`: m, its place in the file. It becomes that at time 0.
-void add_motion(const View& thing, size_t number, Vec3& place, Scene& scene, Diagnostics& diagnostics) {
-  const Node* const given = thing.find("motion");
+/// Lets the things of an entry move, all alike. `place`: m, that of the entry in the file. `places`: m, those of the
+/// things, which become those at time 0.
+void add_motion(const FixedEntry& entry, const Vec3& place, span<Vec3* const> places, Scene& scene,
+                Diagnostics& diagnostics) {
+  const Node* const given = entry.view.find("motion");
   if (given == nullptr || !given->is_map()) return;
   const View view(given, kind_named("motion"), given->place);
   const auto keys = filled<MotionKeys>(view);
@@ -132,15 +141,17 @@ void add_motion(const View& thing, size_t number, Vec3& place, Scene& scene, Dia
   SurfaceMotion motion;
   if (keys.sine) {
     motion = motion_on_sine(keys.sine->amplitude, keys.sine->period, keys.sine->phase);
-    if (motion.swing) place -= motion.swing->middle;
+    for (Vec3* const each : places)
+      if (motion.swing) *each -= motion.swing->middle;
   } else if (keys.circle) {
     motion = on_circle(view, *keys.circle, place, diagnostics);
   } else {
     motion = in_windows(view, keys.every.value_or(infinity), diagnostics);
   }
+
   if (!motion.moves()) return;
-  scene.world.motions.resize(number + 1);
-  scene.world.motions[number] = std::move(motion);
+  scene.world.motions.resize(entry.first + entry.count);
+  std::fill_n(scene.world.motions.begin() + entry.first, entry.count, motion);
 }
 
 }  // namespace
@@ -160,20 +171,20 @@ void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagno
     const string_view kind = view.kind().name;
     const string& name = entry.key->text;
     World& world = scene.world;
+    if (kind == "plane") add_plane(filled<PlaneKeys>(view), name, scene);
     if (kind == "room") add_room(view, name, scene, diagnostics);
+    if (kind == "wall") add_wall(view, name, scene, diagnostics);
+    if (kind == "obstacle") add_obstacle(view, name, forms, scene, diagnostics);
+    if (kind == "room") continue;
 
-    // Each that may move.
-    const auto let_move = [&](Vec3& place) { add_motion(view, entry.first, place, scene, diagnostics); };
-    if (kind == "plane") {
-      add_plane(filled<PlaneKeys>(view), name, scene);
-      let_move(world.planes.back().point);
-    } else if (kind == "wall") {
-      add_wall(view, name, scene, diagnostics);
-      let_move(world.walls.back().center);
-    } else if (kind == "obstacle") {
-      add_obstacle(view, name, forms, scene);
-      let_move(world.obstacles.back().center);
-    }
+    // What may move.
+    vector<Vec3*> places;
+    if (kind == "plane") places = {&world.planes.back().point};
+    if (kind == "wall") places = {&world.walls.back().center};
+    for (size_t k = world.obstacles.size() - (kind == "obstacle" ? entry.count : 0); k < world.obstacles.size(); ++k)
+      places.push_back(&world.obstacles[k].center);
+    const Vec3 place = kind == "obstacle" ? filled<ObstacleKeys>(view).position : *places.front();
+    add_motion(entry, place, places, scene, diagnostics);
   }
   if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }

@@ -46,7 +46,8 @@ enum class Type : uint8_t {
 };
 
 /// The pattern of a name, a group's member, or a side of the room.
-inline constexpr string_view reference = R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|\{.+\})){0,2}$)";
+inline constexpr string_view reference =
+    R"(^[A-Za-z_][A-Za-z0-9_-]*(\.([0-9]+|[xyz]_(min|max)|side|bottom|top|\{.+\})){0,2}$)";
 
 /// Numbers from `min` to `max`, ends included unless a flag excludes them.
 struct Range {

@@ -226,6 +226,8 @@ constexpr Field obstacle_color = row_if_given<ObstacleKeys, &ObstacleKeys::color
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     row<ObstacleKeys, &ObstacleKeys::position>("position", "Centre.", "[-3, 1, 0]", {.unit = "m", .needed = true}),
+    row_if_given<ObstacleKeys, &ObstacleKeys::inside>("inside", "Hollow: its surface alone, without thickness, for bodies inside; a tube's is tube.side, tube.bottom and tube.top, a box's box.x_min to box.z_max. Balls alone meet round ones.", "true", {.title = "Hollow"}),
+    row_if_given<ObstacleKeys, &ObstacleKeys::open>("open", "Which ends a hollow one lacks. Default: none; a sphere open at the top is its lower half.", "top", {.of = "none|top|bottom|both", .title = "Open ends"}),
     motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
 };
 

@@ -67,9 +67,7 @@ optional<Inventory::Range> find_range(const Node& name, const Inventory& invento
   for (const FixedEntry& fixed : inventory.fixed) {
     if (bodies_alone) break;
     add(fixed.key->text);
-    for (const char* side : {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"}) {
-      if (fixed.count == 6) all.push_back(fixed.key->text + "." + side);
-    }
+    for (const string_view part : fixed.parts) all.push_back(fixed.key->text + "." + string(part));
   }
 
   const string suggestion = suggest_name(name.text, {all.begin(), all.end()});

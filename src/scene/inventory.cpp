@@ -5,6 +5,7 @@
 #include "scene/check.h"
 #include "scene/decode.h"
 #include "scene/fields.h"
+#include "scene/hollow.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -97,8 +98,10 @@ class Census {
       empty_.push_back({&key, fixed_count_, false});
       return;
     }
-    const Entity count = kind.name == "room" ? 6 : 1;
-    inventory_.fixed.push_back({&key, thing_view(root_, key, node, kind), fixed_count_, count});
+    const View view = thing_view(root_, key, node, kind);
+    vector<string_view> parts = part_names(view);
+    const auto count = max<Entity>(Entity(parts.size()), 1);
+    inventory_.fixed.push_back({&key, view, fixed_count_, count, std::move(parts)});
     fixed_count_ += count;
   }
 
@@ -133,13 +136,11 @@ class Census {
 
     for (const BodyEntry& body : inventory_.bodies) add(body.key->text, {body.first, Entity(body.count)});
 
-    static constexpr const char* sides[] = {"x_min", "x_max", "y_min", "y_max", "z_min", "z_max"};
     for (const FixedEntry& entry : inventory_.fixed) {
       const Entity first = inventory_.body_count + entry.first;
       add(entry.key->text, {first, entry.count});
-      for (Entity side = 0; entry.count == 6 && side < 6; ++side) {
-        inventory_.names[entry.key->text + "." + sides[side]] = {first + side, 1};
-      }
+      for (Entity part = 0; part < entry.parts.size(); ++part)
+        inventory_.names[entry.key->text + "." + string(entry.parts[part])] = {first + part, 1};
     }
 
     for (size_t i = 0; i < inventory_.strings.size(); ++i)

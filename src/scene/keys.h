@@ -161,8 +161,13 @@ struct WallKeys : FixedKeys<0x9aa3ad> {
   optional<Vec3> up;  // any length; none: default_up()
 };
 
+/// The ends of a hollow obstacle that are missing.
+enum class Opening : uint8_t { none, top, bottom, both };
+
 struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
   Vec3 position = Vec3(0, 0, 0);  // m
+  bool inside = false;
+  optional<Opening> open = Opening::none;
 };
 
 struct StringKeys {

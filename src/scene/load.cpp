@@ -12,6 +12,7 @@
 #include "scene/expand.h"
 #include "scene/expressions.h"
 #include "scene/fields.h"
+#include "scene/hollow.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -135,6 +136,7 @@ struct SceneFile::Impl {
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     if (inventory.fits) decode_lengths(inventory, scene, diagnostics);
     if (inventory.fits) decode_rest_lengths(tree, inventory, scene, diagnostics);
+    if (inventory.fits && diagnostics.empty()) check_hollows(inventory, scene, diagnostics);
 
     // What needs the bodies.
     decode_camera(tree, inventory, scene, diagnostics);

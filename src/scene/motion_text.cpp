@@ -43,7 +43,10 @@ class MotionText {
     for (const auto& [point, normal, own] : planes) line("plane", point, normal, own);
     for (const auto& [center, normal, right, up, half_width, half_height, own] : walls)
       line("wall", center, normal, right, up, half_width, half_height, own);
-    for (const auto& [center, shape, own] : obstacles) line("obstacle", center, shape, own);
+    for (const auto& [center, shape, own, hollow] : obstacles) {
+      line("obstacle", center, shape, own);
+      if (hollow != Hollow::none) line("hollow", int(hollow));
+    }
     for (size_t fixed = 0; fixed < motions.size(); ++fixed) write(fixed, motions[fixed]);
 
     for (const Force& force : forces) write(force);

@@ -27,7 +27,7 @@ class Reach {
   void check() {
     for (const FixedEntry& entry : inventory_.fixed) {
       check_places(entry.view, entry.key->text);
-      if (entry.count == 1) check_motion(entry);
+      check_motion(entry);
     }
     for (const StringEntry& string : inventory_.strings) check_places(string.view, string.key->text);
 

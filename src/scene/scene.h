@@ -64,6 +64,8 @@ struct FixedLook {
   Color color;
   bool visible = true;
   optional<MeshUse> mesh = nullopt;  // only of an obstacle
+  // Of a flat part of a hollow obstacle: unit, to the inside, from where alone it is drawn.
+  Vec3 inward = Vec3::Zero();
 };
 
 /// A thing with `repeat: 0`.

@@ -42,10 +42,6 @@ inline constexpr double step_rounding = 512;
 inline constexpr double plane_rounding = 0x1p-49;
 // Share of accelerations: a difference on curves that is rounding.
 inline constexpr double curve_rounding = 0x1p-43;
-// Share of the decay time of drag: for so long, eight terms give the path to rounding.
-inline constexpr double series_fade = 0x1p-4;
-// Multiple of the decay time: nothing is left of the acceleration after it.
-inline constexpr double faded = 64;
 // Share of a radius or a coordinate: allowed error of polynomials beside a closed form.
 inline constexpr double closed_place = 0x1p-48;
 // Share of speeds: the same. These polynomials only serve to find impacts.
@@ -200,6 +196,10 @@ inline constexpr double quick_return = 1000;
 // Rounds of sweeps over pairs that would overlap, after which a step is shortened; and how often it is.
 inline constexpr int more_sweeps = 32;
 inline constexpr int most_shortenings = 6;
+// Times the way by which a shell bends: what a step aims at where contact has no gap.
+inline constexpr double bent_aim = 1.25;
+// Rounds in which balls are kept from shells that bend.
+inline constexpr int bent_rounds = 4;
 // What a step leaves of the shells of a crowd that is calm.
 inline constexpr double shell_decay = 0.875;
 // Share of a radius: a crowd with narrower shells can go over to constrained motion.

@@ -7,7 +7,7 @@
 namespace carom {
 namespace {
 
-const string surroundings =
+const string watched =
     "scene: 1\n"
     "balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}, blue: {mass: 1, radius: 1, position: [5, 0, 0]}}\n"
     "groups: {gas: {count: 3, ball: {mass: 1, radius: 0.1}, in: {min: [9, 0, 0], max: [10, 1, 1]}}}\n"
@@ -16,7 +16,7 @@ const string simulate = "simulate: {duration: 1}\n";
 
 TEST(RegionKeys, MakeShapesOnBodies) {
   const Scene scene =
-      load_text(surroundings + simulate +
+      load_text(watched + simulate +
                 "regions:\n"
                 "  ball: {radius: 0.5, position: [1, 2, 3]}\n"
                 "  can: {cylinder: {radius: 0.5, height: 3}, position: [1, 2, 3], on: [gas, red], action: stop}\n"
@@ -42,18 +42,18 @@ TEST(RegionKeys, MakeShapesOnBodies) {
 
 TEST(RegionKeys, OfStopsEndTheRun) {
   const Scene scene =
-      load_text(surroundings +
+      load_text(watched +
                 "regions: {pocket: {radius: 1, position: [9, 9, 9], action: remove}}\n"
                 "simulate: {duration: 1, stop: [rest, {collisions: 9}, {region: pocket}, {collisions: 7}]}\n");
   EXPECT_TRUE(scene.simulate.stop_at_rest);
   EXPECT_EQ(scene.simulate.stop_collisions, 7u);
   EXPECT_TRUE(scene.world.regions[0].stops && scene.world.regions[0].removes);
   EXPECT_TRUE(may_stop(scene));
-  EXPECT_FALSE(may_stop(load_text(surroundings + simulate)));
+  EXPECT_FALSE(may_stop(load_text(watched + simulate)));
 }
 
 TEST(RegionKeys, AreInTheResolvedScene) {
-  const Scene scene = load_text(surroundings +
+  const Scene scene = load_text(watched +
                                 "regions: {pocket: {radius: 1, position: [9, 9, 9]}, low: {plane: {point: [0, 0, 0], "
                                 "normal: [0, -1, 0]}, on: [red]}}\n"
                                 "simulate: {duration: 1, stop: [rest, {region: low}]}\n"
@@ -72,7 +72,7 @@ TEST(RegionKeys, AreInTheResolvedScene) {
 TEST(RegionKeys, AreSetByPaths) {
   LoadOptions options;
   options.set = {"regions.pocket.position.x=2", "regions.pocket.box=[1, 1, 1]", "simulate.stop.0.collisions=5"};
-  const Scene scene = load_text(surroundings +
+  const Scene scene = load_text(watched +
                                     "regions: {pocket: {radius: 1, position: [9, 9, 9]}}\n"
                                     "simulate: {duration: 1, stop: [{collisions: 9}]}\n",
                                 options);
@@ -83,7 +83,7 @@ TEST(RegionKeys, AreSetByPaths) {
 
 /// The first line of each error of a scene with this region.
 string of_region(const string& region) {
-  const string all = errors_of(surroundings + simulate + "regions: {pocket: " + region + "}\n");
+  const string all = errors_of(watched + simulate + "regions: {pocket: " + region + "}\n");
   string lines;
   for (size_t i = 0; i < all.size();) {
     const size_t end = std::min(all.find('\n', i), all.size());
@@ -94,7 +94,7 @@ string of_region(const string& region) {
 }
 
 TEST(RegionErrors, OneShapeEach) {
-  EXPECT_EQ(in_parts(errors_of(surroundings + simulate + "regions: {pocket: {position: [0, 0, 0]}}\n")),
+  EXPECT_EQ(in_parts(errors_of(watched + simulate + "regions: {pocket: {position: [0, 0, 0]}}\n")),
             (Parts{{"6:11 pocket", "region `pocket` has no `radius` and no `cylinder` and no `box` and no `plane`",
                     "expected `radius`: a number above 0 in m\n"
                     "or `cylinder`: a map of keys\n"
@@ -134,10 +134,9 @@ TEST(RegionErrors, OfNamesAndActions) {
   EXPECT_EQ(of_region("{radius: 1, position: [0, 0, 0], action: kill}"),
             "scene.yaml:6:60: error: `action` is `kill`\n");
 
-  EXPECT_EQ(
-      in_parts(errors_of(surroundings + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n")),
-      (Parts{{"6:11 red", "the name `red` is taken",
-              "names of bodies, groups, fixed surroundings, strings, the room and regions are unique in a scene"}}));
+  EXPECT_EQ(in_parts(errors_of(watched + simulate + "regions: {red: {radius: 1, position: [0, 0, 0]}}\n")),
+            (Parts{{"6:11 red", "the name `red` is taken",
+                    "names of bodies, groups, fixed things, strings, the room and regions are unique in a scene"}}));
 }
 
 TEST(StopErrors, NameWhatIsWrong) {

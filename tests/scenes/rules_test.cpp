@@ -74,6 +74,17 @@ TEST(Funnel, LetsAllBallsThrough) {
   EXPECT_EQ(measured("funnel", "through"), 500);
 }
 
+TEST(Hourglass, LetsAllBallsThroughAndKeepsThem) {
+  SLOW_WITH_SANITIZERS();
+  EXPECT_EQ(measured("hourglass", "through"), 200);
+  EXPECT_EQ(measured("hourglass", "left"), 200);
+}
+
+TEST(PourIntoBowl, FillsTheBowl) {
+  SLOW_WITH_SANITIZERS();
+  EXPECT_EQ(measured("pour_into_bowl", "in_the_bowl"), 160);
+}
+
 TEST(Planets, FollowKeplersLaws) {
   const double a = (12 + 0.35) / 2, gm = 4 * square(std::numbers::pi), period = pow(a, 1.5);
   EXPECT_NEAR(period, stated("planets", "the period is a^(3/2) ="), 1e-13);

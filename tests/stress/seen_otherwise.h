@@ -50,6 +50,12 @@ inline void right_walls(World& world) {
 inline Motion mirrored(Motion m, int axis) {
   each_vector(m.world, m.initial, [&](Vec3& v) { v[axis] = -v[axis]; });
   right_walls(m.world);
+  // A bowl turns over.
+  for (Obstacle& o : m.world.obstacles) {
+    const Hollow hollow = o.hollow;
+    if (axis == 1 && hollow == Hollow::lower_half) o.hollow = Hollow::upper_half;
+    if (axis == 1 && hollow == Hollow::upper_half) o.hollow = Hollow::lower_half;
+  }
   return m;
 }
 

@@ -263,7 +263,7 @@ Touch CrowdList::closest(const Crowd& crowd, size_t k, Entity e, const Vec3& xe,
   const Entity i = crowd.members[k];
   const Vec3 x = crowd.position(k);
   Touch best = touch(world, i, x, e, xe);
-  if (world.is_plane(e)) return best;
+  if (world.is_plane(e) || world.is_shell(e)) return best;
 
   // A normal counts if it leaves a wider gap after the displacement.
   double after = best.gap + best.normal.dot(moved);  // m

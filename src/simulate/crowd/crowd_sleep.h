@@ -39,6 +39,7 @@ class CrowdSleep {
   bool has_settled(Crowd& crowd) const;
   Holding touching(const Crowd& crowd, span<const uint8_t> rests) const;
   bool solve_rest(const Crowd& crowd, Holding& holding);
+  double unsure_direction(const Crowd& crowd, const Holding& holding) const;
   bool hold_by_sweeps(const Crowd& crowd, Holding& holding, const ContactProblem& problem);
   void apply_at_rest(const Crowd& crowd);
   void put_to_rest(Crowd& crowd, const Holding& holding);

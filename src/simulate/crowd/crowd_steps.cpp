@@ -12,6 +12,13 @@ namespace carom {
 
 namespace tol = exact_tolerance;
 
+CrowdSteps::CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads)
+    : bodies_(bodies),
+      quality_(quality),
+      threads_(threads),
+      shells_(any_of(bodies.world.obstacles, [](const Obstacle& o) { return o.hollow != Hollow::none; })),
+      solver_(threads) {}
+
 bool CrowdSteps::solve(Crowd& crowd) {
   if (!strike(crowd)) return false;
   shorten(crowd, longest(crowd));
@@ -19,6 +26,7 @@ bool CrowdSteps::solve(Crowd& crowd) {
   before_ = crowd.v;
   for (int tries = 0;; ++tries) {
     kick(crowd);
+    bend(crowd);
     crowd.step.solved = balance(crowd);
 
     // The contact solver's forces depend on the order of bodies: mirror images with one slab have the same.
@@ -43,8 +51,9 @@ bool CrowdSteps::solve(Crowd& crowd) {
 }
 
 /// Lets the step end sooner (s). What it restores of missing gaps is less too: the return must not be faster.
-void CrowdSteps::shorten(Crowd& crowd, double length) const {
+void CrowdSteps::shorten(Crowd& crowd, double length) {
   if (!(length < crowd.step.length)) return;
+  unbend(crowd);
   const double share = length / crowd.step.length;
   for (RowGroup& group : crowd.rows.hot)
     for (double& base : group.base) base *= base < 0 ? share : 1;
@@ -98,6 +107,8 @@ bool CrowdSteps::aim(Crowd& crowd) {
   now_ = crowd.v;
   for (size_t k = 0; k < crowd.members.size(); ++k) add(now_[k], crowd.lag[k] * crowd.a[k]);
 
+  bends_.clear();
+  bases_.clear();
   const double back = return_of_step(crowd);
   StepTarget target;
   target.length = crowd.step.length;
@@ -125,6 +136,50 @@ bool CrowdSteps::aim(Crowd& crowd) {
     strikes = strikes || of.strikes;
   }
   return strikes;
+}
+
+/// Along the inside of a shell a straight drift leads out of it. The gaps and targets of such rows are narrower by what
+/// the present drift would lose so in the step. Normals stay those of the step's start, through the shell's axis: a
+/// sliding ball thus keeps its speed, and its moment about the axis.
+void CrowdSteps::bend(Crowd& crowd) {
+  if (!shells_) return;
+  const World& world = bodies_.world;
+  unbend(crowd);
+  bends_.resize(CrowdRows::lanes * crowd.rows.groups(), 0);
+  bases_.resize(bends_.size(), 0);
+
+  threads_.each(crowd.rows, [&](size_t p) {
+    const auto& [begin, balls, end] = crowd.rows.parts[p];
+    crowd.rows.for_each({balls, balls, end}, [&](size_t g, size_t lane) {
+      const auto& [i, e] = crowd.rows.names[g][lane];
+      if (!world.is_shell(e)) return;
+      RowGroup& row = crowd.rows.hot[g];
+      const uint32_t a = row.a[lane], b = row.b[lane];
+      const Vec3 way = crowd.step.length * crowd.drift(a), of_shell = crowd.step.length * crowd.drift(b);
+      const Touch then = touch(world, i, crowd.position(a) + way, e, crowd.position(b) + of_shell);
+      double& gap = crowd.rows.state[g].gap[lane];
+      const double straight = gap + crowd.rows.normal(g, lane).dot(of_shell - way);
+
+      const double bent = min(then.gap - straight, 0.0);
+      bends_[CrowdRows::lanes * g + lane] = bent;
+      // Contact forces change the drift, and with it the bend. Where there is no shell to take that, the aim has room.
+      const double aim = gap < 0.5 * crowd.step.shell ? tol::bent_aim * bent : bent;
+      gap += bent;
+      bases_[CrowdRows::lanes * g + lane] = aim;
+      row.base[lane] += aim;
+    });
+  });
+}
+
+/// Takes that back.
+void CrowdSteps::unbend(Crowd& crowd) {
+  for (size_t k = 0; k < bends_.size(); ++k) {
+    const size_t g = k / CrowdRows::lanes, lane = k % CrowdRows::lanes;
+    crowd.rows.state[g].gap[lane] -= bends_[k];
+    crowd.rows.hot[g].base[lane] -= bases_[k];
+  }
+  bends_.clear();
+  bases_.clear();
 }
 
 /// Impacts of pairs that would close their gap in the step, in the order of rows, until none is left. False: one of
@@ -333,7 +388,13 @@ bool CrowdSteps::balance(Crowd& crowd) {
   // Forces as a whole then do no work but that of their targets, whatever the sweeps have left. Without this the errors
   // of many steps add up to energy.
   solver_.scale(crowd.rows, crowd.v, free_, crowd.step.length);
-  if (safe_length(crowd) < crowd.step.length) keep_apart(crowd);
+  if (!shells_ && safe_length(crowd) < crowd.step.length) keep_apart(crowd, 0);
+  // Each change of drifts changes how far shells bend.
+  if (shells_) {
+    bend(crowd);
+    const double rounding = tol::gap_rounding * crowd.smallest;
+    for (int round = 0; round < tol::bent_rounds && keep_apart(crowd, rounding); ++round) bend(crowd);
+  }
   if (found.change <= aim.change) return true;
   give_up_returns(crowd);
   return crowd.members.size() <= tol::exact_members && solve_exactly(crowd);
@@ -352,8 +413,9 @@ bool CrowdSteps::give_up_returns(Crowd& crowd) {
   return any;
 }
 
-/// Sweeps over the pairs that would overlap, and those that overlap because of that. Others have slack.
-void CrowdSteps::keep_apart(Crowd& crowd) {
+/// Sweeps over the pairs that would overlap by more than rounding (m), and those that overlap because of that. Others
+/// have slack. Returns whether there were some.
+bool CrowdSteps::keep_apart(Crowd& crowd, double rounding) {
   vector<uint8_t> marks(crowd.rows.groups(), 0);
   for (int sweep = 0; sweep < tol::more_sweeps; ++sweep) {
     bool any = false;
@@ -361,13 +423,14 @@ void CrowdSteps::keep_apart(Crowd& crowd) {
     crowd.rows.for_each([&](size_t g, size_t lane) {
       const RowGroup& row = crowd.rows.hot[g];
       const double speed = crowd.rows.normal(g, lane).dot(crowd.drift(row.b[lane]) - crowd.drift(row.a[lane]));
-      if (crowd.rows.state[g].gap[lane] + crowd.step.length * speed >= 0) return;
+      if (crowd.rows.state[g].gap[lane] + crowd.step.length * speed >= -rounding) return;
       any = true;
       marks[g] = 1;
     });
-    if (!any) return;
+    if (!any) return sweep > 0;
     solver_.sweep(crowd.rows, crowd.v, crowd.step.length, marks, 4);
   }
+  return true;
 }
 
 /// The longest drift (s) after which no two overlap by more than is allowed.

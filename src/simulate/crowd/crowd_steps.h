@@ -15,8 +15,7 @@ namespace carom {
 class CrowdSteps {
  public:
   /// `threads` must outlive the steps.
-  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads)
-      : bodies_(bodies), quality_(quality), threads_(threads), solver_(threads) {}
+  CrowdSteps(ExactBodies& bodies, const ContactQuality& quality, CrowdThreads& threads);
 
   /// Solves the step of a crowd whose gaps are measured, and shortens it where that is necessary. False: a body has
   /// become too fast for the list. Drifts then have the impacts alone.
@@ -37,6 +36,8 @@ class CrowdSteps {
   double return_of_step(const Crowd& crowd) const;
   bool may_return(const Crowd& crowd) const;
   bool aim(Crowd& crowd);
+  void bend(Crowd& crowd);
+  void unbend(Crowd& crowd);
   bool strike(Crowd& crowd);
   /// Impacts of a part of the rows in one round.
   struct Strikes {
@@ -57,11 +58,11 @@ class CrowdSteps {
   double speed_in_contact(const Crowd& crowd);
   CrowdSolver::Goal goal(const Crowd& crowd) const;
   bool balance(Crowd& crowd);
-  void shorten(Crowd& crowd, double length) const;
+  void shorten(Crowd& crowd, double length);
   double longest(const Crowd& crowd) const;
   void start_warm(Crowd& crowd);
   static bool give_up_returns(Crowd& crowd);
-  void keep_apart(Crowd& crowd);
+  bool keep_apart(Crowd& crowd, double rounding);
   double safe_length(const Crowd& crowd);
   bool solve_exactly(Crowd& crowd) const;
   vector<RowPlace> closing_rows(const Crowd& crowd, double rounding);
@@ -72,11 +73,14 @@ class CrowdSteps {
   const ContactQuality& quality_;
   const CrowdKernels& kernels_ = widest_crowd_kernels();
   CrowdThreads& threads_;
+  const bool shells_;  // there are any
   CrowdSolver solver_;
   vector<uint8_t> may_strike_;  // by group
   vector<Four> now_;            // velocities of the instant, by number
   vector<Four> before_;         // those of the drift before the kick
   vector<Four> free_;           // and after it, without contacts
+  vector<double> bends_;        // m, by row: what its gap has less of because its thing bends, at most 0
+  vector<double> bases_;        // m, by row: the same of its base
 };
 
 }  // namespace carom

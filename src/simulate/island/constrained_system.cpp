@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/shell.h"
 #include "numerics/cube_root.h"
 #include "numerics/disjoint_sets.h"
 #include "numerics/dormand_prince.h"
@@ -31,13 +32,15 @@ constexpr int samples = 6;
 
 /// The least radius of curvature of the Minkowski sum of two volumes where it is round (m).
 /// A cylinder's rim is sharp. A sphere makes it as round as the sphere.
-double bend_radius(const World& world, Entity i, Entity e) {
+double bend_radius(const World& world, const Contact& contact) {
+  const auto& [i, e, feature] = contact;
   if (world.is_string(e)) return world.string(e).length;
+  if (world.is_shell(e)) return Shell(world.obstacle(e)).bend_radius(world.radius[i], feature);
 
   // The sum of the sizes of those that are of this shape.
   const auto round = [&](Shape shape) {
     double sum = 0;
-    for (const Entity k : {i, e}) {
+    for (const Entity k : {contact.i, contact.e}) {
       if (world.is_plane(k) || world.is_wall(k)) continue;
       const Volume volume = world.volume_of(k);
       if (volume.shape == shape) sum += volume.half.x();
@@ -413,7 +416,7 @@ double ConstrainedSystem::straight_time(const vector<Vec3>& x, const vector<Vec3
       const auto& [i, e, feature] = contacts[c];
       if (is_flat(world_, i, e, feature)) continue;
 
-      const double bend = bend_radius(world_, i, e);
+      const double bend = bend_radius(world_, contacts[c]);
       const double room = step_error_ * smaller_radius(world_, contacts[c]) * bend;
       const double w = relative_velocity(v, rows[c], e).norm();
       const double pull = relative(a, rows[c]).norm();
@@ -457,7 +460,7 @@ ConstrainedSystem::Allowed ConstrainedSystem::allowed_errors(const vector<Vec3>&
   for (size_t c = 0; c < closed_.size(); ++c) {
     const auto& [i, e, feature] = closed_[c];
     if (is_flat(world_, i, e, feature)) continue;
-    const double bend = bend_radius(world_, i, e);
+    const double bend = bend_radius(world_, closed_[c]);
     const double w = relative_velocity(v, rows_[c], e).norm();
     take(max(sqrt(reaction(rows_[c]) / bend), w / bend), w, distance_rounding(roundings, rows_[c], e));
   }

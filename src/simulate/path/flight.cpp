@@ -1,5 +1,4 @@
 // Flights that are not plain parabolas: evaluation of drag and of polynomial steps.
-// The polynomial of a path under drag is its Taylor series. Its terms fall fast within span_of_fade().
 #include "simulate/path/flight.h"
 
 #include "std.h"
@@ -16,14 +15,7 @@ Vec3 Flight::bent_velocity(double t) const {
 
 PolynomialPath::Terms Flight::displacement_from(double t, double length) const {
   if (curve != nullptr) return PolynomialPath::shifted(curve->displacement, t / curve->length, length / curve->length);
-  PolynomialPath::Terms terms;
-  terms.fill(Vec3::Zero());
-  terms[0] = length * velocity(t);
-  terms[1] = (0.5 * length * length) * acceleration(t);
-  // In the second case the acceleration has decayed.
-  if (is_straight() || !(fade * length < 1)) return terms;
-  for (size_t k = 2; k < terms.size(); ++k) terms[k] = (-fade * length / double(k + 1)) * terms[k - 1];
-  return terms;
+  return path().displacement_from(t, length);
 }
 
 void Flights::set(Entity i, const Flight& flight, const PolynomialPath& curve) {

@@ -54,9 +54,7 @@ struct Flight {
   /// The time (s) from t on for which displacement_from() is accurate. After the acceleration has decayed, a path is
   /// straight.
   double span_of_fade(double t) const {
-    using namespace exact_tolerance;
-    const bool straight = is_straight() || fade * t >= faded;
-    return curve != nullptr || straight ? infinity : series_fade / fade;
+    return curve != nullptr || is_straight() ? infinity : path().span(t);
   }
 
  private:

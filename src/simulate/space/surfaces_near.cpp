@@ -4,6 +4,7 @@
 #include "simulate/space/surfaces_near.h"
 
 #include "geometry/contact_time.h"
+#include "geometry/shell.h"
 #include "numerics/whole.h"
 #include "physics/world.h"
 #include "std.h"
@@ -69,9 +70,17 @@ inline bool SurfacesNear::is_near(Entity e, const Vec3& center, double reach) co
   }
   if (world_.is_obstacle(e)) {
     const Obstacle& o = world_.obstacle(e);
+    // Deep inside it is not near.
+    if (o.hollow != Hollow::none) return is_shell_near(o, center, reach);
     return ((center - o.center).cwiseAbs() - o.volume.half).cwiseMax(0).squaredNorm() <= reach * reach;
   }
   return (center - nearest_on_wall(world_.wall(e), center)).squaredNorm() <= reach * reach;
+}
+
+bool SurfacesNear::is_shell_near(const Obstacle& shell, const Vec3& center, double reach) {
+  const Vec3 p = center - shell.center;
+  const double rounding = 0x1p-48 * (center.cwiseAbs().sum() + shell.center.cwiseAbs().sum());
+  return Shell(shell).distance(p) <= reach + rounding;
 }
 
 /// The same where things move: whether the surface is ever near.

@@ -9,6 +9,7 @@
 
 namespace carom {
 
+struct Obstacle;
 struct World;
 
 class SurfacesNear {
@@ -41,6 +42,7 @@ class SurfacesNear {
 
   void sweep(Entity e);
   [[gnu::always_inline]] bool is_near(Entity e, const Vec3& center, double reach) const;
+  [[gnu::noinline]] static bool is_shell_near(const Obstacle& shell, const Vec3& center, double reach);
   bool comes_near(Entity e, const Vec3& center, double reach) const;
   [[gnu::noinline]] void take_ever_near(const vector<Entity>& from, const Vec3& center, double reach,
                                         vector<Entity>& found) const;
