@@ -130,7 +130,6 @@ const vector<Beyond> beyond_schemas = {
     {"a contact sheet of", "how many pictures a size holds"},
     {"a GIF cannot show", "the end of a name against a number"},
     {"but the windows repeat every", "the end of a window against their period"},
-    {"the axis goes through this thing's place", "places against one another"},
     {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
 };
 
