@@ -280,11 +280,9 @@ class Checker : ValueChecker {
       // Single values.
       case Type::number_or_none:
       case Type::number:
-        number(value, field, name, limited_range(field));
-        return;
+        return void(number(value, field, name, limited_range(field)));
       case Type::whole:
-        whole(value, field, name);
-        return;
+        return void(whole(value, field, name));
 
       case Type::flag:
         return flag(value, name, required);

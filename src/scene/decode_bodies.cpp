@@ -119,8 +119,8 @@ class Bodies {
     if (!world_.volume.empty()) fill(world_.volume, volume);
 
     fill(world_.restitution, body.restitution.value_or(default_restitution_));
-    if (const double appear = entry.group ? filled<GroupKeys>(entry.view).appear : body.appear; appear > 0)
-      fill(appearances(), appear);
+    const optional<double> appear = entry.group ? filled<GroupKeys>(entry.view).appear : body.appear;
+    if (appear.value_or(0) > 0) fill(appearances(), *appear);
     if (body.impulse.isZero(0)) return;
     if (world_.impulse.empty()) world_.impulse.assign(inventory_.body_count, Vec3::Zero());
     fill(world_.impulse, body.impulse);
@@ -196,7 +196,7 @@ class Bodies {
     }
     // What is in the place of one that comes later may leave.
     const auto group = filled<GroupKeys>(body.view);
-    if (group.overlap == OverlapRule::push && group.appear == 0) pushed_.push_back(&body);
+    if (group.overlap == OverlapRule::push && !(group.appear.value_or(0) > 0)) pushed_.push_back(&body);
   }
 
   /// Moves balls apart where their groups ask for it, and says how far. False: there is no room, an error was added.
@@ -260,7 +260,7 @@ class Bodies {
     if (group.rate) return pour(body, group, *placing);
 
     // Find the places. What is there now may have left when the group appears.
-    const bool later = group.appear > 0;
+    const bool later = group.appear.value_or(0) > 0;
     placing->arrange = *group.arrange;
     Random random(scene_.seed, body.key->text + "/position");
     const Placed placed = place(*placing, world_, later ? obstacles_ : grid_, random);
@@ -284,7 +284,7 @@ class Bodies {
     }
 
     for (Entity k = 0; k < body.count; ++k) {
-      appearances()[body.first + k] = group.from + k / *group.rate;
+      appearances()[body.first + k] = group.from.value_or(0) + k / *group.rate;
       scene_.initial.position[body.first + k] = space.center;
     }
     Random random(scene_.seed, body.key->text + "/position");

@@ -90,8 +90,8 @@ constexpr Field ball_position = row<BodyKeys, &BodyKeys::position>("position", "
 // The members of a repeated thing replace it before its map is checked and decoded (expand.h).
 constexpr Field repeat = row("repeat", "Makes members name.0, name.1, ... of this map. Its expressions may contain the index i, or the indices named here; the last one varies fastest.", "{i: 6, j: 4}", {.type = Type::repeat, .title = "Number of members", .own = true});
 
-constexpr string_view appear_doc = "When it comes into the world. What is in its place then must leave first. Its position, velocity and impulse are those of this instant.";
-constexpr Field appear = row<BodyKeys, &BodyKeys::appear>("appear", appear_doc, "1.5", {.unit = "s", .range = from_0});
+constexpr string_view appear_doc = "When it comes into the world; without it, it is there from the start. What is in its place then must leave first. Its position, velocity and impulse are those of this instant.";
+constexpr Field appear = row_if_given<BodyKeys, &BodyKeys::appear>("appear", appear_doc, "1.5", {.unit = "s", .range = from_0});
 
 constexpr Field ball_fields[] = {
     mass, density, radius,
@@ -152,9 +152,9 @@ constexpr Field group_fields[] = {
     row<GroupKeys, &GroupKeys::table>("table", "A CSV file with a line for each ball, in place of `count` and `in`. Columns x_m, y_m, z_m, and where present vx_m_per_s, vy_m_per_s, vz_m_per_s, radius_m, mass_kg, which override the ball's; other columns are ignored.", "packing.csv", {.type = Type::file, .one_of = "table|count|rate|in|arrange|speed|members", .title = "Table of the balls"}),
     row_if_given<GroupKeys, &GroupKeys::overlap>("overlap", "What happens to balls that overlap something at time 0. push: they are moved apart, if by less than 1/1000 of the smaller radius. Default: refuse.", "push", {.of = "refuse|push", .title = "Overlap at time 0"}),
     row<GroupKeys, &GroupKeys::in>("in", "The box, ball or cylinder that every ball lies wholly inside.", "{min: [-2, 2, -2], max: [2, 4, 2]}", {.of = "in", .one_of = "in|members|table", .needed = true, .title = "Space of the balls"}),
-    row<GroupKeys, &GroupKeys::appear>("appear", "When the balls come into the world, each where its place is free.", "1.5", {.unit = "s", .range = from_0, .one_of = "appear|rate"}),
+    row_if_given<GroupKeys, &GroupKeys::appear>("appear", "When the balls come into the world, each where its place is free. Default: they are there from the start.", "1.5", {.unit = "s", .range = from_0, .one_of = "appear|rate"}),
     row_if_given<GroupKeys, &GroupKeys::rate>("rate", "Balls that come one after the other, so many in a second, in place of `count`. Each comes at a place in `in` where there is room, by the seed; where there is none, it tries again after 1/rate.", "50", {.unit = "1/s", .range = above_0, .one_of = "rate|count|table|members|arrange|appear", .title = "Balls in a second"}),
-    row<GroupKeys, &GroupKeys::from>("from", "When the first ball of `rate` comes.", "0", {.unit = "s", .range = from_0, .with = "rate"}),
+    row_if_given<GroupKeys, &GroupKeys::from>("from", "When the first ball of `rate` comes. Default: 0.", "0", {.unit = "s", .range = from_0, .with = "rate"}),
     row_if_given<GroupKeys, &GroupKeys::until>("until", "The balls of `rate` come before this time. Default: the run's end.", "4", {.unit = "s", .range = from_0, .with = "rate"}),
     row<GroupKeys, &GroupKeys::arrange>("arrange", "random; lattice: cubic, spread evenly over the space; hexagonal: close-packed layers, spread as far as the space allows.", "hexagonal", {.of = "random|lattice|hexagonal", .one_of = "arrange|members|rate|table"}),
     row<GroupKeys, &GroupKeys::speed>("speed", "Standard deviation of each component of a ball's velocity.", "1", {.unit = "m/s", .range = from_0, .one_of = "speed|velocity|members|table"}),

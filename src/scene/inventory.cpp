@@ -56,9 +56,10 @@ class Census {
     if (!group.rate) return group.count;
     const double duration = scene_part(root_, "simulate").number("duration").value_or(0);
     const double until = min(group.until.value_or(duration), duration);
-    if (!(until > group.from)) return 0;
-    double count = ceil((until - group.from) * *group.rate);
-    while (count > 0 && group.from + (count - 1) / *group.rate >= until) --count;
+    const double from = group.from.value_or(0);
+    if (!(until > from)) return 0;
+    double count = ceil((until - from) * *group.rate);
+    while (count > 0 && from + (count - 1) / *group.rate >= until) --count;
     return count < double(most_bodies) ? uint64_t(count) : most_bodies + 1;
   }
 

@@ -53,7 +53,7 @@ struct BodyKeys : VolumeKeys {
   optional<Vec3> velocity = Vec3(0, 0, 0);  // m/s; none: a wrong value
   optional<double> restitution;             // none: that of the scene
   Vec3 impulse = Vec3(0, 0, 0);             // N s
-  double appear = 0;                        // s
+  optional<double> appear;                  // s; none: it is there from the start
   optional<BodyColor> color;                // none: by its place in the file
 };
 
@@ -99,9 +99,9 @@ struct GroupKeys {
   optional<Arrange> arrange = Arrange::random;
   optional<double> speed;   // m/s, standard deviation of a component
   optional<Vec3> velocity;  // m/s; none: that of the group's ball
-  double appear = 0;        // s
+  optional<double> appear;  // s; none: the balls are there from the start
   optional<double> rate;    // 1/s; none: all at once
-  double from = 0;          // s, of the first one at this rate
+  optional<double> from;    // s, of the first one at this rate; none: 0
   optional<double> until;   // s; none: the run's end
   optional<OverlapRule> overlap;
 };

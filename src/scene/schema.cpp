@@ -175,6 +175,15 @@ Json value_for_part(const Field& field) {
   return field.type == Type::file_or_part ? text_schema(field) : number_schema(limited_range(field));
 }
 
+/// Of a type that only sweep files have.
+Json schema_of_sweep(const Field& field) {
+  if (field.type == Type::settings) return settings_schema();
+  if (field.type == Type::cases) return {{"type", "array"}, {"items", settings_schema()}, {"minItems", 1}};
+  return {{"type", "object"},
+          {"minProperties", 1},
+          {"additionalProperties", field.type == Type::axes ? axis_schema(*field.held) : reference(field.of)}};
+}
+
 Json value_schema(const Field& field) {
   switch (field.type) {
     // Single values.
@@ -247,17 +256,9 @@ Json value_schema(const Field& field) {
     case Type::list:
       return list_schema(field);
 
-    // Of sweep files.
-    case Type::settings:
-      return settings_schema();
-    case Type::axes:
-      return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", axis_schema(*field.held)}};
-    case Type::spans:
-      return {{"type", "object"}, {"minProperties", 1}, {"additionalProperties", reference(field.of)}};
-    case Type::cases:
-      return {{"type", "array"}, {"items", settings_schema()}, {"minItems", 1}};
+    default:
+      return schema_of_sweep(field);
   }
-  return {};
 }
 
 Json field_schema(const Field& field) {

@@ -298,7 +298,7 @@ TEST(Glb, AThingOnASineIsThereAtItsKeyframesAndNearlySoBetweenThem) {
   Scene scene = ball_at(Vec3(0, 3, 0));
   scene.world.obstacles.push_back({{0, 1, 0}, Volume::box({1, 1, 1}), nullopt});
   scene.world.motions = {motion_on_sine({0, 0.5, 0}, 2, 0)};
-  scene.roster.fixed.push_back({"table"});
+  scene.roster.fixed.push_back({"table", Color{}, true});
   KeyedMotion motion;
   for (int i = 0; i < 3; ++i) {
     motion.times.push_back(i);

@@ -140,6 +140,7 @@ const vector<Beyond> beyond_schemas = {
     {"balls may merge into one", "sizes of things against one another"},
     {"a contact sheet of", "how many pictures a size holds"},
     {"a GIF cannot show", "the end of a name against a number"},
+    {"but the windows repeat every", "the end of a window against their period"},
     {"parabolas from impact to impact", "what an engine can do depends on forces, volumes and obstacles together"},
 };
 

@@ -29,8 +29,11 @@ void each_vector(World& world, State& state, const F& f) {
   for (Obstacle& o : world.obstacles) f(o.center);
   for (WorldRegion& r : world.regions) f(r.position), f(r.normal);
   for (String& s : world.strings) f(s.anchor);
-  for (SurfaceMotion& motion : world.motions)
+  for (SurfaceMotion& motion : world.motions) {
     for (MotionLeg& leg : motion.legs) f(leg.velocity), f(leg.start), f(leg.start_low);
+    f(motion.gain), f(motion.gain_low);
+    if (motion.swing) f(motion.swing->middle), f(motion.swing->sine), f(motion.swing->cosine);
+  }
 
   for (Force& force : world.forces) {
     if (auto* uniform = std::get_if<UniformForce>(&force.law)) f(uniform->force);
@@ -126,8 +129,13 @@ inline void scale(World& world, State& state, double& duration, double& rest_spe
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
   for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
   for (String& s : world.strings) s.anchor *= l, s.length *= l;
-  for (SurfaceMotion& motion : world.motions)
+  for (SurfaceMotion& motion : world.motions) {
     for (MotionLeg& leg : motion.legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
+    motion.every *= t, motion.gain *= l, motion.gain_low *= l;
+    if (!motion.swing) continue;
+    motion.swing->period *= t;
+    for (Vec3* v : {&motion.swing->middle, &motion.swing->sine, &motion.swing->cosine}) *v *= l;
+  }
 
   scale(world.forces, l, t, kg);
   scale_couplings(world, l, t, kg);
@@ -204,8 +212,8 @@ inline string unit_difference(const Observed& a, const Observed& b, const Units&
       [&](const Vec3& v) { return Vec3(v * (l / t)); });
 }
 
-/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity. Fixed
-/// things of neither move. `first`: this one's bodies come first.
+/// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity.
+/// `first`: this one's bodies come first.
 inline Motion together(const Motion& motion, Motion other, bool first) {
   const Vec3 away(1024, 512, -2048);
   for (Vec3& x : other.initial.position) x += away;
@@ -231,6 +239,17 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   join(world.strings, one.world.strings, two.world.strings);
 
   join(world.springs, one.world.springs, two.world.springs);
+
+  // Motions, by planes, walls and obstacles.
+  world.motions.clear();
+  const auto take = [&](const World& from, size_t begin, size_t count) {
+    for (size_t k = begin; k < begin + count; ++k)
+      world.motions.push_back(from.moves() ? from.motions[k] : SurfaceMotion{});
+  };
+  for (const World* from : {&one.world, &two.world}) take(*from, 0, from->planes.size());
+  for (const World* from : {&one.world, &two.world}) take(*from, from->planes.size(), from->walls.size());
+  for (const World* from : {&one.world, &two.world})
+    take(*from, from->planes.size() + from->walls.size(), from->obstacles.size());
 
   // The second one's bodies have other numbers.
   for (size_t k = one.world.springs.size(); k < world.springs.size(); ++k) {

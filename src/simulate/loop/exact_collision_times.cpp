@@ -218,6 +218,8 @@ Instant ExactCollisionTimes::of_swinging(Entity i, Entity surface, uint8_t& feat
   const World& world = bodies_.world;
   const Flight& f = bodies_.flights[i];
   const Swing& swing = *world.swing(surface);
+  // Where the search ends shortens no piece: a time of impact depends on the flight alone.
+  const double end = bodies_.flight_end(i) - f.start;
   double horizon = min(end_of(i), Instant{until, 0}) - f.start;
   // What stays where it is meets the thing in the first period, or never.
   if (f.is_straight() && f.v.isZero(0) && f.a.isZero(0)) horizon = min(horizon, (bodies_.now - f.start) + swing.period);
@@ -226,7 +228,7 @@ Instant ExactCollisionTimes::of_swinging(Entity i, Entity surface, uint8_t& feat
   const bool just_left = bodies_.body[i].origin_partner == surface;
   for (double t = 0; t < horizon;) {
     const bool leaves = t == 0 && just_left;
-    const double length = min({smooth, horizon - t, f.span_of_fade(t)});
+    const double length = min({smooth, end - t, f.span_of_fade(t)});
     if (const double clear = leaves ? 0 : clear_time(i, f, t, surface); clear > length) {
       t += clear;
       continue;
