@@ -100,9 +100,12 @@ PathPiece PathLog::piece_of(Entity i, double from) const {
     if (whole != i && !piece.removed) piece.part_of = whole;
 
     piece.joint = world.mass[i] != given.mass[i] || world.radius[i] != given.radius[i];
-    piece.mass = world.mass[i];
-    piece.radius = world.radius[i];
-    piece.half = world.volume_of(i).half;
+    // Files hold these of joint bodies alone, and predict each from the piece before.
+    if (piece.joint) {
+      piece.mass = world.mass[i];
+      piece.radius = world.radius[i];
+      piece.half = world.volume_of(i).half;
+    }
   }
   return piece;
 }
