@@ -59,8 +59,9 @@ class Census {
     const double from = group.from.value_or(0);
     if (!(until > from)) return 0;
     double count = ceil((until - from) * *group.rate);
+    if (!(count <= double(most_bodies))) return most_bodies + 1;
     while (count > 0 && from + (count - 1) / *group.rate >= until) --count;
-    return count < double(most_bodies) ? uint64_t(count) : most_bodies + 1;
+    return uint64_t(count);
   }
 
   void claim(const Key& key) {

@@ -456,7 +456,7 @@ void add_part_rules(const Kind& owner, const Field& field, const function<Json(J
     part.update(at(owner.defaults, owned));
     Json whole = required({"defaults"});
     whole.update(at("defaults", part));
-    rules.push_back({{"if", either(has_default(kind, need), whole)}, {"else", each(required({field.key}))}});
+    rules.push_back({{"if", either(has_default(kind, need), whole)}, {"else", each(present(owner, field.key))}});
   }
 }
 

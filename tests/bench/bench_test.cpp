@@ -187,7 +187,7 @@ TEST(Bench, ReportsWhatAnEngineDoesNotHave) {
           "exact: under a `spring` with a rest length or damping paths have no closed form, which `engine: exact` "
           "follows",
           "book: `engine: book` has no forces other than gravity"}));
-  EXPECT_EQ(clay.left_out, (vector<string>{"stepped: `engine: stepped` has no `contact: merge`",
+  EXPECT_EQ(clay.left_out, (vector<string>{"stepped: `integrator: rk4` has no `contact: merge`",
                                            "book: `engine: book` has no `contact: merge`"}));
   EXPECT_EQ(clay.rows.size(), 1u);
 }

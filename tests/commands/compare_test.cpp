@@ -41,7 +41,7 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
   ASSERT_EQ(files.size(), 3u);
 
   const string& table = files.at("summary.csv");
-  EXPECT_NE(table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,"
+  EXPECT_NE(table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,appeared_J,"
                        "balls.red.restitution,balls.red.speed_m_"
                        "per_s\na,Two balls,exact,done,1,"),
             string::npos)

@@ -392,7 +392,7 @@ TEST(Start, RefusesBodiesThatARegionHasRemoved) {
     expect_run(here, {"run", "first.yaml", "-o", "first", "--only", only});
     const Finished second = here.carom({"check", "second.yaml"});
     EXPECT_EQ(second.code, 2);
-    EXPECT_NE(second.err.find(": error: at 1 s of the run `red` is gone"), string::npos) << second.err;
+    EXPECT_NE(second.err.find(": error: at 1 s of the run `red` is out of the world"), string::npos) << second.err;
   }
 }
 

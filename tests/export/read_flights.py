@@ -216,7 +216,7 @@ def read_rest(c, p, before, sizes):
 def read_until(data, time):
     """The present piece of each body."""
     magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
-    assert (magic, version, order) == (b"caromfly", 7, 0x01020304)
+    assert (magic, version, order) == (b"caromfly", 8, 0x01020304)
     present, sizes, at = [NOTHING] * (bodies % SIGN), {}, 32
     (left,) = struct.unpack_from("<Q", data, len(data) - 200)
     while left:

@@ -99,6 +99,7 @@ const vector<Beyond> beyond_schemas = {
     {"is tied to itself", "two names against one another"},
     {" is tied to it", "what a name stands for"},
     {" has one at each end", "what a name stands for"},
+    {"which appears at", "a key of another thing"},
     {"`on` beside `from` and `to`", "a key against those of a map beside it"},
     {"but its ends are", "a length against where things are"},
     {"m/s at time 0", "velocities against where things are"},

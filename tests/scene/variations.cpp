@@ -136,6 +136,12 @@ output: {regions: true, trajectory: {every: 0.1, on: [red]}}
 )",
     R"(
 scene: 1
+balls: {red: {mass: 1, radius: 0.6, position: [0, 9, 0]}}
+obstacles: {bowl: {inside: true, radius: 0.9, open: top, position: [50, 0, 0]}}
+simulate: {duration: 1, contact: merge}
+)",
+    R"(
+scene: 1
 defaults: {string: {restitution: 0.5}}
 balls: {text: {mass: 1, radius: 0.1, position: [0, 1, 0]}, fast: {mass: 1, radius: 0.1, position: [2, 8, 0], velocity: [0, 1, 0]}, row: {repeat: 2, mass: 1, radius: 0.1, position: ['= 1 + i', 2, 3]}}
 planes: {group: {point: [0, -9, 0], normal: [0, 1, 0]}}
@@ -287,6 +293,17 @@ simulate: {duration: 1}
 camera:
   up: [0, 1, 0.1]
   path: [{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 0.5, eye: [5, 3, 0], target: [0, 0, 1], fov: 30}]
+)",
+    R"(
+scene: 1
+restitution: {pairs: [{between: [late, late], value: none}]}
+balls: {red: {mass: 1, radius: 0.1, position: [0, 9, 0], appear: 0.5}}
+bodies: {crate: {mass: 1, box: [1, 1, 1], position: [3, 9, 0], appear: 0.25}}
+groups:
+  late: {count: 2, appear: 0.5, in: {min: [-9, -9, -9], max: [-5, -5, -5]}, ball: {mass: 1, radius: 0.1}}
+  rain: {rate: 3, from: 0.25, until: 0.75, in: {radius: 2, position: [0, -9, 0]}, ball: {mass: 1, radius: 0.1}}
+obstacles: {can: {inside: true, box: [1, 1, 1], open: top, position: [50, 0, 0]}}
+simulate: {duration: 1}
 )"};
 
 }  // namespace
