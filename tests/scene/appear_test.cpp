@@ -7,13 +7,13 @@
 namespace carom {
 namespace {
 
-const string start =
+const string later =
     "scene: 1\nsimulate: {duration: 2}\ndefaults: {ball: {mass: 1, radius: 0.1}}\n"
     "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
 
 TEST(Appear, OfBallsBodiesAndGroupsIsInTheWorldAndTheyAreOutOfTheStart) {
   const Scene scene =
-      load_text(start +
+      load_text(later +
                 "balls: {a: {position: [0, 1, 0]}, b: {position: [0, 1, 0], appear: 0.5}}\n"
                 "bodies: {crate: {mass: 2, box: [1, 1, 1], position: [0, 1, 0], appear: 1}}\n"
                 "groups: {gas: {count: 2, appear: 0.25, in: {min: [-1, 0, -1], max: [1, 2, 1]}, ball: {}}}\n");
@@ -26,12 +26,12 @@ TEST(Appear, OfBallsBodiesAndGroupsIsInTheWorldAndTheyAreOutOfTheStart) {
   EXPECT_EQ(mass_now(scene.world, scene.initial, 2), 0);
 
   // 0 is the start.
-  EXPECT_TRUE(load_text(start + "balls: {a: {position: [0, 1, 0], appear: 0}}\n").world.appears.empty());
+  EXPECT_TRUE(load_text(later + "balls: {a: {position: [0, 1, 0], appear: 0}}\n").world.appears.empty());
 }
 
 TEST(Appear, ARateMakesTheBallsThatAreDueBeforeTheEnd) {
   const auto count = [](const string& keys) {
-    return load_text(start + "groups: {rain: {" + keys + ", in: {min: [-1, 3, -1], max: [1, 4, 1]}, ball: {}}}\n")
+    return load_text(later + "groups: {rain: {" + keys + ", in: {min: [-1, 3, -1], max: [1, 4, 1]}, ball: {}}}\n")
         .world.body_count();
   };
   EXPECT_EQ(count("rate: 50"), 100u);
@@ -42,7 +42,7 @@ TEST(Appear, ARateMakesTheBallsThatAreDueBeforeTheEnd) {
   EXPECT_EQ(count("rate: 10, from: 3"), 0u);
 
   const Scene scene = load_text(
-      start + "groups: {rain: {rate: 4, from: 1, in: {min: [-1, 3, -1], max: [1, 4, 2]}, ball: {}, speed: 1}}\n");
+      later + "groups: {rain: {rate: 4, from: 1, in: {min: [-1, 3, -1], max: [1, 4, 2]}, ball: {}, speed: 1}}\n");
   ASSERT_EQ(scene.world.pours.size(), 1u);
   EXPECT_EQ(scene.world.pours[0].center, Vec3(0, 3.5, 0.5));
   EXPECT_LT((scene.world.pours[0].within.half - Vec3(1, 0.5, 1.5)).norm(), 1e-15);
@@ -50,25 +50,25 @@ TEST(Appear, ARateMakesTheBallsThatAreDueBeforeTheEnd) {
 }
 
 TEST(Appear, ErrorsHavePlaceAndRemedy) {
-  EXPECT_EQ(errors_of(start + "balls: {a: {position: [0, 1, 0], appear: -1}}\n"),
+  EXPECT_EQ(errors_of(later + "balls: {a: {position: [0, 1, 0], appear: -1}}\n"),
             "scene.yaml:5:42: error: `appear` is -1\n"
             "   5 | balls: {a: {position: [0, 1, 0], appear: -1}}\n"
             "     |                                          ^~\n"
             "     = expected a number of at least 0 in s\n");
 
   // In what stands.
-  EXPECT_NE(errors_of(start + "balls: {a: {position: [0, 0.05, 0], appear: 1}}\n").find("`a` overlaps `floor`"),
+  EXPECT_NE(errors_of(later + "balls: {a: {position: [0, 0.05, 0], appear: 1}}\n").find("`a` overlaps `floor`"),
             string::npos);
 
   // A string needs both of its ends.
-  EXPECT_NE(errors_of(start + "balls: {a: {position: [0, 1, 0], appear: 1}}\n"
+  EXPECT_NE(errors_of(later + "balls: {a: {position: [0, 1, 0], appear: 1}}\n"
                               "strings: {s: {from: [0, 2, 0], to: a}}\n")
                 .find("`s` is tied to `a`, which appears at 1 s"),
             string::npos);
 
   // Keys of groups.
   const auto group = [](const string& keys) {
-    return errors_of(start + "groups: {rain: {ball: {}, " + keys + ", in: {min: [0, 3, 0], max: [1, 4, 1]}}}\n");
+    return errors_of(later + "groups: {rain: {ball: {}, " + keys + ", in: {min: [0, 3, 0], max: [1, 4, 1]}}}\n");
   };
   EXPECT_NE(group("rate: 0").find("`rate` is 0"), string::npos);
   EXPECT_NE(group("rate: 5, count: 3").find("`count`"), string::npos);
@@ -78,13 +78,13 @@ TEST(Appear, ErrorsHavePlaceAndRemedy) {
   EXPECT_NE(group("from: 3").find("`count`"), string::npos);
 
   const string wide = "groups: {rain: {ball: {radius: 0.6}, rate: 5, in: {min: [0, 3, 0], max: [1, 4, 1]}}}\n";
-  EXPECT_NE(errors_of(start + wide).find("does not fit into the space of `rain`"), string::npos);
+  EXPECT_NE(errors_of(later + wide).find("does not fit into the space of `rain`"), string::npos);
 }
 
 TEST(Appear, BudgetsCountBallsThatCome) {
   LoadOptions options;
   options.budget.bodies = 50;
-  EXPECT_NE(errors_of(start + "groups: {rain: {rate: 1e9, in: {min: [0, 3, 0], max: [1, 4, 1]}, ball: {}}}\n", options)
+  EXPECT_NE(errors_of(later + "groups: {rain: {rate: 1e9, in: {min: [0, 3, 0], max: [1, 4, 1]}, ball: {}}}\n", options)
                 .find("the limit is 50"),
             string::npos);
 }
