@@ -93,7 +93,7 @@ vector<HollowPart> parts_of_obstacle(const ObstacleKeys& keys, const Volume& vol
 
 void check_hollow_keys(const View& view, const string& name, Diagnostics& diagnostics) {
   const auto keys = filled<ObstacleKeys>(view);
-  const string_view open = view.text("open").value_or("");
+  const string open = view.text("open").value_or("");
   if (!keys.inside) {
     if (keys.open.value_or(Opening::none) != Opening::none)
       diagnostics.add(view.place("open"), fmt::format("{} has an opening and is solid", in_backticks(name)),
