@@ -119,6 +119,8 @@ inline void scale(World& world, State& state, double& duration, double& rest_spe
   for (Vec3& x : state.position) x *= l;
   for (Vec3& v : state.velocity) v *= l / t;
   for (Vec3& p : world.impulse) p *= kg * l / t;
+  for (double& time : world.appears) time *= t;
+  for (Pour& pour : world.pours) pour.rate /= t, pour.center *= l, pour.within.half *= l;
   for (double& x : world.mass) x *= kg;
   for (double& r : world.radius) r *= l;
   for (Volume& v : world.volume) v.half *= l;
@@ -220,6 +222,7 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
   for (Obstacle& o : other.world.obstacles) o.center += away;
   for (Wall& w : other.world.walls) w.center += away;
   for (String& s : other.world.strings) s.anchor += away;
+  for (Pour& pour : other.world.pours) pour.center += away;
 
   const Motion &one = first ? motion : other, &two = first ? other : motion;
   Motion both = motion;
@@ -261,6 +264,15 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
     s.body += one.world.body_count();
     if (s.other != no_entity) s.other += one.world.body_count();
   }
+
+  // Bodies that come later.
+  world.appears.clear();
+  const bool later = !one.world.appears.empty() || !two.world.appears.empty();
+  for (const Motion* m : {&one, &two})
+    for (Entity i = 0; later && i < m->world.body_count(); ++i)
+      world.appears.push_back(m->world.appears.empty() ? -infinity : m->world.appears[i]);
+  join(world.pours, one.world.pours, two.world.pours);
+  for (size_t k = one.world.pours.size(); k < world.pours.size(); ++k) world.pours[k].first += one.world.body_count();
 
   // Lists that only one of them may have.
   const bool shapes = !one.world.volume.empty() || !two.world.volume.empty();
