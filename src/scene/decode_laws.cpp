@@ -177,9 +177,37 @@ void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Dia
   each(root.find("forces"), [&](const Node& node) { decode_force(node, inventory, scene, diagnostics); });
 }
 
+namespace {
+
+/// Refuses a force between bodies where one of these comes later.
+void refuse_later(const Scene& scene, span<const Entity> those, const Place& place, Diagnostics& diagnostics) {
+  const auto later = ranges::find_if(those, [&](Entity i) { return scene.world.comes_later(i); });
+  if (later == those.end()) return;
+  diagnostics.add(place,
+                  fmt::format("the force is on {}, which appears at {} s", in_backticks(scene.roster.name(*later)),
+                              shortest(scene.world.appears[*later])),
+                  "expected bodies that are there from the start; name them in `on`, or as ends");
+}
+
+/// The same for the first gravitation that has such a body.
+void refuse_later_gravitation(const Node& list, const Scene& scene, Diagnostics& diagnostics) {
+  vector<Entity> all(scene.world.body_count());
+  for (Entity i = 0; i < all.size(); ++i) all[i] = i;
+  for (const Gravitation& law : scene.world.gravitations) {
+    const auto entry =
+        ranges::find_if(list.items, [](const Node& node) { return node.find("gravitation") != nullptr; });
+    refuse_later(scene, law.on.empty() ? all : law.on, entry->place, diagnostics);
+    if (!diagnostics.empty()) return;
+  }
+}
+
+}  // namespace
+
 void decode_rest_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const Node* const list = root.find("forces");
   if (list == nullptr || !list->is_sequence() || !diagnostics.empty()) return;
+
+  if (!scene.world.appears.empty()) refuse_later_gravitation(*list, scene, diagnostics);
 
   // All springs are right, and stand in the order of the list.
   World& world = scene.world;
@@ -192,6 +220,7 @@ void decode_rest_lengths(const Node& root, const Inventory& inventory, Scene& sc
     if (force.spring->stiffness == 0 && force.spring->damping == 0) continue;
     const optional<SpringEnds> ends = ends_of(*force.spring, inventory, diagnostics);
     if (!ends) return;
+    if (ends->b != no_entity) refuse_later(scene, array{ends->a, ends->b}, force.spring->from->place, diagnostics);
 
     double* length = nullptr;
     if (ends->b != no_entity) {

@@ -66,6 +66,17 @@ TEST(Appear, ErrorsHavePlaceAndRemedy) {
                 .find("`s` is tied to `a`, which appears at 1 s"),
             string::npos);
 
+  // So does a force between bodies.
+  const string two = later + "balls: {a: {position: [0, 1, 0], appear: 1}, b: {position: [0, 3, 0]}}\n";
+  EXPECT_EQ(errors_of(two + "forces: [{spring: {from: b, to: a, stiffness: 1}}]\n"),
+            "scene.yaml:6:26: error: the force is on `a`, which appears at 1 s\n"
+            "   6 | forces: [{spring: {from: b, to: a, stiffness: 1}}]\n"
+            "     |                          ^\n"
+            "     = expected bodies that are there from the start; name them in `on`, or as ends\n");
+  EXPECT_NE(errors_of(two + "forces: [{gravitation: {constant: 1}}]\n").find("6:10: error: the force is on `a`"),
+            string::npos);
+  EXPECT_EQ(errors_of(two + "forces: [{spring: {anchor: [0, 2, 0], stiffness: 1}}]\n"), "");
+
   // Keys of groups.
   const auto group = [](const string& keys) {
     return errors_of(later + "groups: {rain: {ball: {}, " + keys + ", in: {min: [0, 3, 0], max: [1, 4, 1]}}}\n");
