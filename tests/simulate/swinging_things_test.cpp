@@ -416,5 +416,35 @@ TEST(SwingingThings, SnapshotsGoOnWithTheSameBits) {
   }
 }
 
+TEST(SwingingThings, AHollowSphereOrTubeStrikesABallOnItsAxisAsTwoPlanesDo) {
+  const auto times = [](int kind) {
+    Problem problem;
+    problem.ball({0.1, 0, 0}, {0.7, 0, 0}, 1, 0.1);
+    if (kind == 0) {
+      problem.plane({-1, 0, 0}, {1, 0, 0});
+      problem.plane({1, 0, 0}, {-1, 0, 0});
+    } else if (kind == 1) {
+      problem.world.obstacles.push_back({Vec3::Zero(), Volume::sphere(1), nullopt, Hollow::whole});
+    } else {
+      problem.world.obstacles.push_back({Vec3::Zero(), Volume::cylinder(1, 3), nullopt, Hollow::side});
+    }
+
+    for (Entity e = 1; e < problem.world.entity_count(); ++e) problem.move(e, motion_on_sine({0.1, 0, 0}, 1.3, 20));
+    problem.options.duration = 30;
+    vector<double> found;
+    for (const Collision& c : run_exact(problem).collisions) found.push_back(c.time);
+    return found;
+  };
+
+  const vector<double> planes = times(0);
+  EXPECT_GT(planes.size(), 20u);
+  for (const int kind : {1, 2}) {
+    const vector<double> hollow = times(kind);
+    ASSERT_EQ(hollow.size(), planes.size()) << kind;
+    // Each impact makes an error of time greater.
+    for (size_t k = 0; k < 7; ++k) EXPECT_NEAR(hollow[k], planes[k], 1e-12) << k << " of " << kind;
+  }
+}
+
 }  // namespace
 }  // namespace carom

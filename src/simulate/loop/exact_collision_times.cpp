@@ -194,7 +194,8 @@ double ExactCollisionTimes::noise_in_contact(Entity i) const {
 }
 
 /// How long body i, at t (s) of its flight, surely stays clear of a thing that swings (s). A plane through the points
-/// at which it is the closest to the thing's middle parts the two until it has come as near as the thing ever goes.
+/// at which it is the closest to the thing's middle parts the two until it has come as near as the thing ever goes. No
+/// plane parts a body from a shell around it: there the distance decides, whatever its direction.
 double ExactCollisionTimes::clear_time(Entity i, const Flight& f, double t, Entity surface) const {
   const World& world = bodies_.world;
   const Swing& swing = *world.swing(surface);
@@ -203,8 +204,14 @@ double ExactCollisionTimes::clear_time(Entity i, const Flight& f, double t, Enti
   const Touch there = touch(world, i, x, surface, middle);
   const Vec3& n = there.normal;
   const double rounding = 0x1p-48 * (x.cwiseAbs().sum() + middle.cwiseAbs().sum());
-  const double room = there.gap - width_along(swing, n) - rounding;
+  const bool shell = world.is_obstacle(surface) && world.obstacle(surface).hollow != Hollow::none;
+  const double width = shell ? sqrt(swing.sine.squaredNorm() + swing.cosine.squaredNorm()) : width_along(swing, n);
+  const double room = there.gap - width - rounding;
   if (!(room > 0)) return 0;
+  if (shell) {
+    const double speed = f.velocity(t).norm();
+    return 2 * room / (speed + sqrt(speed * speed + 2 * room * f.greatest_acceleration()));
+  }
 
   const double approach = n.dot(f.velocity(t));
   if (f.is_parabola()) return plane_contact_time(room, -approach, -n.dot(f.acceleration(t)), 0, false, never);
