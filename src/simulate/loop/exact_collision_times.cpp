@@ -204,6 +204,7 @@ double ExactCollisionTimes::clear_time(Entity i, const Flight& f, double t, Enti
   const Touch there = touch(world, i, x, surface, middle);
   const Vec3& n = there.normal;
   const double rounding = 0x1p-48 * (x.cwiseAbs().sum() + middle.cwiseAbs().sum());
+
   const bool shell = world.is_obstacle(surface) && world.obstacle(surface).hollow != Hollow::none;
   const double width = shell ? sqrt(swing.sine.squaredNorm() + swing.cosine.squaredNorm()) : width_along(swing, n);
   const double room = there.gap - width - rounding;
