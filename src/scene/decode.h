@@ -29,8 +29,8 @@ struct BodyEntry {
 struct FixedEntry {
   const Key* key;
   View view;
-  Entity first = 0;  // its number among the fixed things
-  Entity count = 1;  // several for a room and a hollow thing
+  Entity first = 0;             // its number among the fixed things
+  Entity count = 1;             // several for a room and a hollow thing
   vector<string_view> parts{};  // their names, if they have any
 };
 
