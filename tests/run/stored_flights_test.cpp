@@ -11,6 +11,7 @@
 #include "run/replay.h"
 #include "run/run_testing.h"
 #include "scene/load.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 #include "stress/scene.h"
 
@@ -86,6 +87,7 @@ void expect_same_pieces(const StoredRun& run) {
 class SceneInFlights : public ::testing::TestWithParam<string> {};
 
 TEST_P(SceneInFlights, HasItsPathsToTheLastBit) {
+  SLOW_WITH_SANITIZERS("binary_stars", "hourglass", "lattice");
   StoredRun run;
   store_scene(run, GetParam());
   expect_same_pieces(run);
