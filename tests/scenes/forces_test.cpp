@@ -5,6 +5,7 @@
 #include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom::testing {
@@ -47,6 +48,7 @@ TEST(Bumper, BouncesOnEveryHalfSwing) {
 }
 
 TEST(Lattice, FallsOnTheFloorAndLosesNothing) {
+  SLOW_WITH_SANITIZERS();
   const string file = "lattice";
   const Played run = play(file);
   EXPECT_EQ(choose_engine(run.scene).engine, Engine::exact);
@@ -58,6 +60,7 @@ TEST(Lattice, FallsOnTheFloorAndLosesNothing) {
 }
 
 TEST(BinaryStars, KeepMomentumWhileTheyMerge) {
+  SLOW_WITH_SANITIZERS();
   const Played run = play("binary_stars");
   const World& world = run.scene.world;
   EXPECT_GT(run.tally.merges, 50u);
