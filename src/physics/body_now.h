@@ -7,12 +7,12 @@
 
 namespace carom {
 
-/// Whether the body has merged into another body, which represents both, or has left the world.
+/// Whether the body has merged into another body, which represents both, or is out of the world.
 inline bool is_gone(const State& state, Entity body) {
   return !state.part_of.empty() && state.part_of[body] != body;
 }
 
-/// Whether it has left the world, alone or as a part of another body.
+/// Whether it is out of the world: it has left it, alone or as a part of another body, or has yet to come.
 inline bool is_removed(const State& state, Entity body) {
   return !state.part_of.empty() && state.part_of[body] == no_entity;
 }

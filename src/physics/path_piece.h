@@ -39,7 +39,7 @@ struct PathPiece {
   shared_ptr<const PolynomialPath> curve{};
   // The body that it has become part of. The pieces of that body give its motion.
   Entity part_of = no_entity;
-  bool removed = false;  // it has left the world
+  bool removed = false;  // it has left the world, or has yet to come
   // Other bodies have become part of it. Its mass, radius and half extents are then the following.
   bool joint = false;
   double mass = 0, radius = 0;  // kg, m

@@ -13,12 +13,13 @@ struct State {
   vector<Vec3> position;  // m, of the centre, by body
   vector<Vec3> velocity;  // m/s, by body
 
-  // These are empty where no bodies have merged or left the world. A merged body keeps its own mass and radius in the
-  // World. Here its mass is zero, and its position and velocity are those of the joint body.
+  // These are empty where all bodies are in the world, and none has merged. A merged body keeps its own mass and radius
+  // in the World. Here its mass is zero, and its position and velocity are those of the joint body.
   vector<double> mass{};    // kg, by body
   vector<double> radius{};  // m, by body: radius of the smallest sphere about the volume
   vector<Volume> volume{};  // by body
-  // The body that it is part of; its own number: none; no_entity: it has left the world, from its position.
+  // The body that it is part of; its own number: none; no_entity: it is out of the world: it has left it, or has
+  // yet to come.
   vector<Entity> part_of{};
 
   /// Brings all fields to the form above.
