@@ -112,6 +112,14 @@ string shared_text(const Summary& summary) {
   return text;
 }
 
+string events_text(const Summary& summary) {
+  string text;
+  for (const auto& [name, time] : summary.contact.events)
+    text += fmt::format("{}{} {}", text.empty() ? "" : "; ", printable(name),
+                        std::isnan(time) ? "did not happen" : "at " + quantity(time, "s"));
+  return text;
+}
+
 string work_text(const Summary& summary) {
   vector<string> each;
   for (const ForceWork& force : summary.energy.of_forces)
@@ -209,6 +217,7 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
     block.line("no room",
                fmt::format("bodies could not rebound at {}, and absorbed {}",
                            counted(shared.without_room, "instant", "instants"), quantity(shared.absorbed, "J")));
+  if (!summary.contact.events.empty()) block.line("events", events_text(summary));
   if (summary.contact.appeared > 0)
     block.line("appeared",
                fmt::format("{} after the start, with {}", counted(summary.contact.appeared, "body", "bodies"),
@@ -250,6 +259,12 @@ Json warnings_json(const vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& warning : warnings) list.push_back({{"code", warning.code}, {"text", warning.text}});
   return list;
+}
+
+Json events_json(const Summary& s) {
+  Json json = Json::object();
+  for (const auto& [name, time] : s.contact.events) json[name] = finite_or_null(time);
+  return json;
 }
 
 Json work_json(const Summary& s) {

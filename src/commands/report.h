@@ -47,6 +47,7 @@ nlohmann::ordered_json warnings_json(const vector<Warning>& warnings);
 nlohmann::ordered_json contact_json(const Summary& summary);
 /// J, by force: "forces.0.drag_J".
 nlohmann::ordered_json work_json(const Summary& summary);
+nlohmann::ordered_json events_json(const Summary& summary);
 /// Wall times, and the memory at its peak. What is neither simulation nor drawing counts as writing.
 nlohmann::ordered_json times_json(const RunResult& result);
 

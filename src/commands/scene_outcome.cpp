@@ -33,6 +33,7 @@ string doubtful_text(const PlannedScene& planned, const vector<Warning>& warning
 void add_members(Json& entry, const PlannedScene& planned, const RunResult& result) {
   entry["summary"] = summary_json(result.summary);
   entry["contact"] = contact_json(result.summary);
+  if (!result.summary.contact.events.empty()) entry["events"] = events_json(result.summary);
   if (!result.summary.energy.of_forces.empty()) entry["work"] = work_json(result.summary);
   entry["warnings"] = warnings_json(result.summary.warnings);
   entry["files"] = files_in(planned.folder);

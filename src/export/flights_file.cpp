@@ -54,7 +54,7 @@ FlightsFile::FlightsFile(const Scene& scene, uint64_t most)
     : has_collisions_(drawings_show_collisions(scene)),
       world_(scene.world),
       most_(most),
-      bytes_(header_size + tail_size),
+      bytes_(header_size + tail_size + sizeof(double) * scene.world.triggers.all.size()),
       codec_(scene.world),
       next_key_(key_share * key_bytes_of_body * scene.world.body_count()) {}
 
@@ -188,20 +188,23 @@ void FlightsFile::end(const Tally& tally) {
   if (file_ && in_block_ > 0) end_block(of_entries, columns_, in_block_, block_time_);
   if (!file_) return;
 
-  const bool has_end = tally.end || tally.passed.removed.bodies + tally.passed.appeared.bodies > 0;
-  InPlace writer(file_->room(key_size * keys_.size() + end_size + tail_size));
+  const bool has_end = tally.end || tally.changes.removed.bodies + tally.changes.appeared.bodies > 0;
+  InPlace writer(
+      file_->room(key_size * keys_.size() + sizeof(double) * tally.changes.fired.size() + end_size + tail_size));
   for (const FlightsKey& key : keys_) {
     writer.put(key.time);
     writer.put(key.place);
     writer.put(key.entries);
   }
 
+  for (const double time : tally.changes.fired) writer.put(time);
+
   if (has_end) {
     const RunEnd end = tally.end.value_or(RunEnd{numeric_limits<double>::quiet_NaN()});
     writer.put(end.time);
     writer.put(uint32_t(end.reason));
     writer.put(end.region);
-    for (const Passage& passage : {tally.passed.removed, tally.passed.appeared}) {
+    for (const Passage& passage : {tally.changes.removed, tally.changes.appeared}) {
       writer.put(passage.bodies);
       writer.put(passage.energy);
       writer.put(passage.momentum);

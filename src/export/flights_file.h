@@ -28,7 +28,8 @@
 // A collision has: kind, a, b, f64 time (s).
 //
 // The index has for each key: f64 time (s), u64 place in the file, u64 entries before it.
-// The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
+// Then come, for each event that sets times of the scene, f64 the first double after it (s), or the greatest double if
+// it has not happened. The tail is u32 0xffffffff and u32 0, then counts as u64, then values as f64.
 //   u64: keys, entries, body-body collisions, body-fixed collisions, merges, strings that went taut, clusters that
 //        became lasting contacts, bodies at rest at the end, impacts that contact took up; instants with impacts that
 //        share a body, of these with ties, and with bodies that had no room; such a body, and two things that it met at
@@ -149,6 +150,7 @@ class FlightsReader {
   void take_header(uint64_t size, const Scene& scene);
   void take_tail(uint64_t size, const Scene& scene);
   void take_end(uint64_t place, const Scene& scene);
+  void take_fired(uint64_t place, const Scene& scene);
   void check_keys(uint64_t count);
   struct Block;
   Block take_block();

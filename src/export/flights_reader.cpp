@@ -78,6 +78,11 @@ void FlightsReader::take_tail(uint64_t size, const Scene& scene) {
     take_end(header_size + left, scene);
   }
 
+  const size_t fired_size = sizeof(double) * scene.world.triggers.all.size();
+  if (left < fired_size) refuse("it is truncated");
+  left -= fired_size;
+  take_fired(header_size + left, scene);
+
   if (keys > left / key_size) refuse("it is truncated");
   end_ = header_size + left - keys * key_size;
   check_keys(keys);
@@ -89,7 +94,7 @@ void FlightsReader::take_end(uint64_t place, const Scene& scene) {
   const auto time = take<double>();
   const auto reason = take<uint32_t>(), region = take<uint32_t>();
 
-  for (Passage* passage : {&tally_.passed.removed, &tally_.passed.appeared}) {
+  for (Passage* passage : {&tally_.changes.removed, &tally_.changes.appeared}) {
     passage->bodies = take<uint64_t>();
     passage->energy = take<double>();
     for (int k = 0; k < 3; ++k) passage->momentum[k] = take<double>();
@@ -100,6 +105,17 @@ void FlightsReader::take_end(uint64_t place, const Scene& scene) {
       (by == EndReason::region && region >= scene.world.regions.size()))
     refuse("it is damaged");
   tally_.end = RunEnd{time, by, region};
+}
+
+/// Reads when events have happened, at `place` in the file.
+void FlightsReader::take_fired(uint64_t place, const Scene& scene) {
+  tally_.changes.fired.resize(scene.world.triggers.all.size());
+  load(place, sizeof(double) * tally_.changes.fired.size());
+  for (double& time : tally_.changes.fired) {
+    time = take<double>();
+    if (!(time > 0 && (time == not_yet || time <= std::nextafter(scene.simulate.duration, infinity))))
+      refuse("it is damaged");
+  }
 }
 
 void FlightsReader::check_keys(uint64_t count) {

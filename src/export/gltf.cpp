@@ -13,6 +13,7 @@ void GltfWriter::add(double time, const State& state, span<const ContactForce>) 
   const World& world = scene_.world;
   const size_t key = motion_.times.size();
   motion_.times.push_back(time);
+  motion_.fired = state.fired;
   motion_.cameras.push_back(makers_.camera(state));
 
   for (Entity body = 0; body < world.body_count(); ++body) {

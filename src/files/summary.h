@@ -34,7 +34,13 @@ struct Warning {
   string text;
 };
 
-/// Counts for the report only, not columns.
+/// An event that sets times of the scene.
+struct SceneEvent {
+  string name;  // "{region: gate}"
+  double time;  // s; NaN: it has not happened
+};
+
+/// Counts and events for the report only, not columns.
 struct ContactCounts {
   uint64_t merges = 0;
   uint64_t tautened = 0;   // strings that went taut
@@ -47,6 +53,7 @@ struct ContactCounts {
   uint64_t unsolved_steps = 0;  // of crowds
   SharedImpacts shared;
   string first_shared{};  // "cue with up and low at 0.3 s"; empty: there was none
+  vector<SceneEvent> events{};
 };
 
 /// A measure of a run: a number, or a text.

@@ -26,9 +26,9 @@ constexpr array<ArrowText, 3> arrow_texts = {
 
 /// The force (N) of gravity and the scene's forces. coupled: m/s^2, by body, by forces between bodies.
 Vec3 force_on(const Moment& moment, const vector<Vec3>& coupled, Entity body) {
-  const double mass = mass_now(moment.scene.world, moment.state, body);
-  return mass * (coupled[body] + free_acceleration(moment.scene.world, body, moment.state.time,
-                                                   moment.state.position[body], moment.state.velocity[body]));
+  const double mass = mass_now(moment.world, moment.state, body);
+  return mass * (coupled[body] + free_acceleration(moment.world, body, moment.state.time, moment.state.position[body],
+                                                   moment.state.velocity[body]));
 }
 
 /// What arrows of this kind show of a body, in the kind's unit.
@@ -36,7 +36,7 @@ Vec3 shown_by(ArrowScale::Kind kind, const Moment& moment, const vector<Vec3>& c
   const Vec3& velocity = moment.state.velocity[body];
   if (kind == ArrowScale::Kind::velocity) return velocity;
   if (kind == ArrowScale::Kind::force) return force_on(moment, coupled, body);
-  return mass_now(moment.scene.world, moment.state, body) * velocity;
+  return mass_now(moment.world, moment.state, body) * velocity;
 }
 
 double greatest_force(const Scene& scene) {
@@ -135,7 +135,7 @@ vector<ArrowScale> arrow_scales(const Scene& scene) {
 
 void add_arrows(const Moment& moment, const vector<ArrowScale>& scales, vector<Stroke>& strokes) {
   if (scales.empty()) return;
-  const World& world = moment.scene.world;
+  const World& world = moment.world;
   vector<Vec3> coupled;
   if (any_of(scales, [](const ArrowScale& scale) { return scale.kind == ArrowScale::Kind::force; }))
     coupled = coupled_accelerations(world, moment.state);

@@ -27,6 +27,7 @@ bool has_strings(const Scene& scene) {
 
 DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size, double speed)
     : scene_(scene),
+      world_(scene.world),
       history_(history),
       size_(size),
       flash_(flash_length * speed),
@@ -34,13 +35,13 @@ DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size
       arrows_(arrow_scales(scene)),
       strokes_(scene.overlay.trails || !arrows_.empty() || has_springs(scene.world) || has_strings(scene)) {}
 
-Drawing DrawingMaker::at(const State& state, const Camera& camera) const {
+Drawing DrawingMaker::at(const State& state, const Camera& camera) {
   Drawing drawing;
   drawing.camera = camera;
   drawing.body_colors = colors_.at(state, history_);
   if (scene_.overlay.flash) drawing.glow = glow(state.time);
   if (!strokes_) return drawing;
-  const Moment moment{scene_, state, history_, colors_, Eye(drawing.camera, size_)};
+  const Moment moment{scene_, world_.at(state.fired), state, history_, colors_, Eye(drawing.camera, size_)};
   add_trails(moment, drawing.strokes);
   add_springs(moment, drawing.strokes);
   add_strings(moment, drawing.strokes);

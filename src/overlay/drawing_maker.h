@@ -4,6 +4,7 @@
 #include "overlay/arrows.h"
 #include "overlay/body_colors.h"
 #include "overlay/history.h"
+#include "physics/world_now.h"
 #include "render/drawing.h"
 #include "scene/output.h"
 #include "std.h"
@@ -20,12 +21,13 @@ class DrawingMaker {
   DrawingMaker(const Scene& scene, const History& history, Size size, double speed = 1);
 
   /// `state`: at the time that `history` has reached. `camera`: that of its picture.
-  Drawing at(const State& state, const Camera& camera) const;
+  Drawing at(const State& state, const Camera& camera);
 
  private:
   vector<float> glow(double time) const;
 
   const Scene& scene_;
+  WorldNow world_;
   const History& history_;
   Size size_;
   double flash_;  // s, simulated

@@ -12,6 +12,7 @@ namespace carom {
 
 struct Moment {
   const Scene& scene;
+  const World& world;  // of the scene, with the times that events have set
   const State& state;
   const History& history;
   const BodyColors& colors;

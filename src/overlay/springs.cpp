@@ -70,7 +70,7 @@ void add_spring(const Moment& moment, const Ends& ends, vector<Stroke>& strokes)
 
 /// The springs between bodies. Those of merged bodies hold the joint one.
 void add_body_springs(const Moment& moment, vector<Stroke>& strokes) {
-  const World& world = moment.scene.world;
+  const World& world = moment.world;
   const State& state = moment.state;
   const vector<size_t>& hidden = moment.scene.overlay.hidden_body_springs;
   const auto body_of = [&](Entity i) { return state.part_of.empty() ? i : state.part_of[i]; };
@@ -92,7 +92,7 @@ void add_body_springs(const Moment& moment, vector<Stroke>& strokes) {
 }  // namespace
 
 void add_springs(const Moment& moment, vector<Stroke>& strokes) {
-  const World& world = moment.scene.world;
+  const World& world = moment.world;
   const vector<size_t>& hidden = moment.scene.overlay.hidden_springs;
   for (size_t k = 0; k < world.forces.size(); ++k) {
     const Force& force = world.forces[k];

@@ -1,5 +1,5 @@
 #pragma once
-// The number of a body or a fixed thing.
+// The numbers of bodies and fixed things.
 
 #include "std.h"
 
@@ -9,5 +9,12 @@ namespace carom {
 /// and strings follow.
 using Entity = uint32_t;
 inline constexpr Entity no_entity = numeric_limits<Entity>::max();
+
+/// Numbers that follow one another.
+struct EntityRange {
+  Entity first = 0, count = 0;
+  bool has(Entity e) const { return e >= first && e - first < count; }
+  friend bool operator==(const EntityRange&, const EntityRange&) = default;
+};
 
 }  // namespace carom

@@ -111,6 +111,17 @@ const Force* open_force(const World& world, Entity body, double time) {
 
 const Force* force_without_closed_form(const World& world) {
   if (bending_force(world) == nullptr) return nullptr;
+
+  // What waits for events may act at any time.
+  if (!world.triggers.all.empty()) {
+    World all = world;
+    for (const TriggeredEnd& end : all.triggers.ends)
+      if (end.of == TriggeredEnd::Of::force) all.forces[end.index].from = 0, all.forces[end.index].until = infinity;
+    all.triggers = {};
+    if (const Force* const open = force_without_closed_form(all))
+      return &world.forces[size_t(open - all.forces.data())];
+  }
+
   const bool alike = all_of(world.forces, [](const Force& f) { return f.on.empty(); });
   const Entity bodies = alike ? min<Entity>(1, world.body_count()) : world.body_count();
   for (Entity i = 0; i < bodies; ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// A part of the record of a motion: a piece of a path, or a collision.
+// A part of the record of a motion: a piece of a path, a collision, or an event that sets times.
 
 #include "physics/collision.h"
 #include "physics/path_piece.h"
@@ -15,15 +15,24 @@ struct CollisionMark {
   Entity b = no_entity;
 };
 
+/// The event of a trigger of the World. What it changes lies ahead, so that it may be known at any time before.
+struct EventMark {
+  uint32_t trigger = 0;
+  double fired = 0;  // s, as in Tally
+};
+
 struct Recorded {
-  enum class Kind : uint8_t { piece, collision };
+  enum class Kind : uint8_t { piece, collision, event };
   Kind kind = Kind::piece;
   // Of its kind.
   PathPiece piece{};
   CollisionMark collision{};
+  EventMark event{};
 
-  /// The first double (s) at which it holds.
-  double from() const { return kind == Kind::piece ? piece.from : collision.time; }
+  /// The first double (s) at which it holds, or may be known.
+  double from() const {
+    return kind == Kind::piece ? piece.from : kind == Kind::collision ? collision.time : -infinity;
+  }
 };
 
 inline CollisionMark mark_of(const Collision& collision) {

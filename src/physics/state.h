@@ -22,6 +22,9 @@ struct State {
   // yet to come.
   vector<Entity> part_of{};
 
+  // s, by trigger of the World: the first double after its event; not_yet: that lies ahead. Empty: there are none.
+  vector<double> fired{};
+
   /// Brings all fields to the form above.
   /// Before, part_of may name a body that has itself become part of another, and the rest is as it was before the
   /// merges.

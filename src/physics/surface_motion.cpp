@@ -5,6 +5,7 @@
 
 #include "numerics/degrees.h"
 #include "numerics/elementary.h"
+#include "physics/trigger.h"
 #include "std.h"
 
 namespace carom {
@@ -73,6 +74,37 @@ MotionLeg next_leg(const vector<MotionLeg>& legs, double from, const Vec3& veloc
   return next;
 }
 
+/// The legs of windows, which may overlap: there their velocities add up. A window that waits for an event is left out,
+/// and one that waits for its end has none.
+vector<MotionLeg> legs_of(span<const MotionWindow> windows, double every) {
+  vector<MotionWindow> known;
+  vector<double> starts;
+  for (const MotionWindow& window : windows) {
+    if (window.velocity.isZero(0) || window.from == not_yet || !(window.from < window.until)) continue;
+    known.push_back(window);
+    starts.push_back(window.from);
+    if (window.until < min(every, not_yet)) starts.push_back(window.until);
+  }
+  ranges::sort(starts);
+  starts.erase(std::unique(starts.begin(), starts.end()), starts.end());
+
+  vector<MotionLeg> legs;
+  if (!starts.empty() && starts.front() > 0) legs.push_back(next_leg(legs, 0, Vec3::Zero()));
+
+  // The windows that hold from each start on.
+  ranges::stable_sort(known, {}, &MotionWindow::from);
+  auto next = known.begin();
+  vector<MotionWindow> now;
+  for (const double start : starts) {
+    std::erase_if(now, [&](const MotionWindow& window) { return window.until <= start; });
+    for (; next != known.end() && next->from == start; ++next) now.push_back(*next);
+    Vec3 velocity = Vec3::Zero();
+    for (const MotionWindow& window : now) velocity += window.velocity;
+    legs.push_back(next_leg(legs, start, velocity));
+  }
+  return legs;
+}
+
 /// Sine and cosine of a swing's angle at a time (s).
 SinCos turned(const Swing& swing, const DoubleDouble& time) {
   const DoubleDouble period{swing.period, 0};
@@ -130,21 +162,7 @@ void add_samples(const Swing& swing, double from, double until, vector<double>& 
 SurfaceMotion motion_in_windows(span<const MotionWindow> windows, double every) {
   SurfaceMotion motion;
   vector<MotionLeg>& legs = motion.legs;
-  const auto begin = [&](double from, const Vec3& velocity) {
-    if (!legs.empty() && legs.back().velocity == velocity) return;
-    // A window may start where the one before ends.
-    if (!legs.empty() && legs.back().from == from)
-      legs.back().velocity = velocity;
-    else
-      legs.push_back(next_leg(legs, from, velocity));
-  };
-
-  for (const MotionWindow& window : windows) {
-    if (window.velocity.isZero(0)) continue;
-    if (legs.empty() && window.from > 0) begin(0, Vec3::Zero());
-    begin(window.from, window.velocity);
-    if (window.until < every) begin(window.until, Vec3::Zero());
-  }
+  legs = legs_of(windows, every);
   if (legs.empty() || every == infinity) return motion;
 
   // The period ends where a leg in the next one would start.
@@ -153,6 +171,18 @@ SurfaceMotion motion_in_windows(span<const MotionWindow> windows, double every) 
   motion.gain = end.start;
   motion.gain_low = end.start_low;
   return motion;
+}
+
+SurfaceMotion motion_by_events(vector<MotionWindow> windows) {
+  SurfaceMotion motion;
+  motion.windows = std::move(windows);
+  motion.follow_windows();
+  return motion;
+}
+
+void SurfaceMotion::follow_windows() {
+  legs = legs_of(windows, infinity);
+  if (legs.empty()) legs.push_back(next_leg({}, 0, Vec3::Zero()));
 }
 
 SurfaceMotion motion_on_sine(const Vec3& amplitude, double period, double phase) {
@@ -257,6 +287,12 @@ double greatest_speed(const Swing& swing) {
 double swept_along(const SurfaceMotion& motion, const Vec3& direction) {
   if (motion.swing) return motion.swing->middle.dot(direction) + (1 + 0x1p-50) * width_along(*motion.swing, direction);
   if (!motion.moves()) return 0;
+
+  // Nobody knows how far a window goes that waits for an event.
+  const auto waits = [&](const MotionWindow& w) {
+    return (w.from == not_yet || w.until == not_yet) && w.velocity.dot(direction) > 0;
+  };
+  if (any_of(motion.windows, waits)) return infinity;
 
   // The last leg has no end, or each period goes on from where the one before has arrived.
   const Vec3& on = motion.every < infinity ? motion.gain : motion.legs.back().velocity;

@@ -46,12 +46,18 @@ struct SurfaceMotion {
   Vec3 gain = Vec3::Zero();      // m, the displacement in a period
   Vec3 gain_low = Vec3::Zero();  // m, the digits of it that `gain` lacks
   optional<Swing> swing;         // in place of legs
+  // Where events (trigger.h) set some ends of windows: those of the legs. They may overlap.
+  vector<MotionWindow> windows{};
 
+  /// Makes the legs of the windows as they are now.
+  void follow_windows();
   bool moves() const { return swing.has_value() || !legs.empty(); }
 };
 
 /// The motion by windows in order that do not overlap, and that repeat after `every` (s). They lie within [0, every].
 SurfaceMotion motion_in_windows(span<const MotionWindow> windows, double every = infinity);
+/// The same where events set some of their ends. Where windows overlap, their velocities add up.
+SurfaceMotion motion_by_events(vector<MotionWindow> windows);
 /// amplitude sin(360 t / period + phase), in m, s and degrees, less its value at time 0.
 SurfaceMotion motion_on_sine(const Vec3& amplitude, double period, double phase);
 /// Round an axis through `center` (m), from a place (m) on. Seen against the axis it turns to the left.

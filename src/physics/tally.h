@@ -39,12 +39,14 @@ struct Passage {
   void keep(auto& archive) { archive(bodies, energy, momentum); }
 };
 
-/// Both ways.
-struct Passages {
+/// What has changed the World: bodies that pass both ways, and events.
+struct WorldChanges {
   Passage removed;   // by regions
   Passage appeared;  // after the start
+  // s, by trigger of the World: the first double after its event; not_yet: it has not happened.
+  vector<double> fired;
 
-  void keep(auto& archive) { archive(removed, appeared); }
+  void keep(auto& archive) { archive(removed, appeared, fired); }
 };
 
 /// Why a run has ended before its duration.
@@ -128,7 +130,7 @@ struct Tally {
   double stepped_contact = 0;
   TakenUp taken_up;
   SharedImpacts shared;
-  Passages passed;
+  WorldChanges changes;
   optional<RunEnd> end;  // none: the run goes on until its duration
 
   /// Counts a record. The end of bounces is not a collision.
@@ -151,7 +153,7 @@ struct Tally {
   void keep(auto& archive) {
     archive(body_body, body_fixed, merges, tautened, collapses, first_collision, last_collision, energy_lost);
     archive(method_error, work, force_work, doubts, max_overlap, fastest, resting, stepped_contact);
-    archive(taken_up, shared, passed, end);
+    archive(taken_up, shared, changes, end);
   }
 };
 

@@ -7,13 +7,6 @@
 
 namespace carom {
 
-/// Things with numbers that follow one another.
-struct EntityRange {
-  Entity first = 0, count = 0;
-  bool has(Entity e) const { return e >= first && e - first < count; }
-  friend bool operator==(const EntityRange&, const EntityRange&) = default;
-};
-
 /// The contacts of some things with others, or with anything, in a part of the run.
 struct WatchedImpulse {
   vector<EntityRange> a{};

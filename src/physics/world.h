@@ -7,6 +7,7 @@
 #include "physics/force_law.h"
 #include "physics/gravitation.h"
 #include "physics/surface_motion.h"
+#include "physics/trigger.h"
 #include "physics/volume.h"
 #include "physics/world_region.h"
 #include "std.h"
@@ -58,6 +59,7 @@ struct String {
   double length = 0;           // m, > 0
   double restitution = 0;      // of the impact where it goes taut, >= 0
   bool rod = false;
+  double until = infinity;  // s, when it is cut
 };
 
 /// A force in a window of time, on some bodies or on all.
@@ -113,6 +115,8 @@ struct World {
   // Forces between bodies.
   vector<BodySpring> springs{};
   vector<Gravitation> gravitations{};
+  // Times of these laws, motions and strings that events set.
+  Triggers triggers{};
 
   Entity body_count() const { return Entity(mass.size()); }
   Entity fixed_count() const { return Entity(planes.size() + walls.size() + obstacles.size()); }

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "physics/world.h"
+#include "physics/world_now.h"
 #include "render/camera.h"
 #include "render/eye.h"
 #include "render/glb_file.h"
@@ -230,7 +230,7 @@ class GlbBuilder {
   /// Its positions at both ends of the film, where its velocity jumps, and along a swing. They are linear in between. A
   /// plane moves along its normal, as its pattern does in pictures.
   void animate_thing(const MovingThing& thing) {
-    const World& world = scene_.world;
+    const World& world = world_.at(motion_.fired);
     const double start = motion_.times.front(), end = motion_.times.back();
     // Of motions that repeat too often for keyframes of their own, the pictures have some.
     const SurfaceMotion& moves = world.motion(thing.fixed);
@@ -249,6 +249,7 @@ class GlbBuilder {
 
   const Scene& scene_;
   const KeyedMotion& motion_;
+  WorldNow world_{scene_.world};
   const Size size_ = picture_size(scene_.output);
   const Camera camera_ = motion_.cameras.empty() ? camera_of(scene_) : motion_.cameras.front();
   GlbFile file_;

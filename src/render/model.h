@@ -47,8 +47,9 @@ struct KeyedMotion {
   vector<Change> changes;            // by keyframe
   Extent extent;                     // of all bodies at all keyframes
   vector<Camera> cameras;            // by keyframe; empty: the scene's at time 0
+  vector<double> fired;              // s, State::fired of the last keyframe
 
-  void keep(auto& archive) { archive(times, position, changes, extent, cameras); }
+  void keep(auto& archive) { archive(times, position, changes, extent, cameras, fired); }
 };
 
 /// The functions by which render/ makes these for src/export/. They throw RenderError.

@@ -52,6 +52,7 @@ void MotionView::add(const State& state) {
     start_ = time_ = state.time;
   }
 
+  known_.at(state.fired);
   const double since = state.time - exchange(time_, state.time);
   for (Entity body = 0; body < state.position.size(); ++body) {
     Departure& departure = departures_[body];
@@ -117,11 +118,10 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
 
 /// Where a fixed thing is while bodies are shown, where it goes farthest.
 vector<Vec3> MotionView::places_of(Entity fixed) const {
-  const World& world = scene_.world;
-  if (!world.moves(fixed)) return {fixed_position(world, fixed, {start_, 0})};
+  if (!world_.moves(fixed)) return {fixed_position(world_, fixed, {start_, 0})};
   vector<Vec3> places;
-  for (const double time : farthest_times(world.motion(fixed), start_, time_))
-    places.push_back(fixed_position(world, fixed, {time, 0}));
+  for (const double time : farthest_times(world_.motion(fixed), start_, time_))
+    places.push_back(fixed_position(world_, fixed, {time, 0}));
   return places;
 }
 

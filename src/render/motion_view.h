@@ -2,6 +2,7 @@
 // What a view of a motion is to hold.
 
 #include "physics/state.h"
+#include "physics/world_now.h"
 #include "render/frustum.h"
 #include "render/model.h"
 #include "scene/scene.h"
@@ -30,7 +31,8 @@ class MotionView {
   };
 
   /// `scene` must outlive this object.
-  MotionView(const Scene& scene, const array<Frustum, 2>& directions) : scene_(scene), directions_(directions) {}
+  MotionView(const Scene& scene, const array<Frustum, 2>& directions)
+      : scene_(scene), known_(scene.world), world_(known_.at({})), directions_(directions) {}
 
   /// Takes the next instant in order.
   void add(const State& state);
@@ -53,6 +55,8 @@ class MotionView {
   void add_fixed_things(Content& content) const;
 
   const Scene& scene_;
+  WorldNow known_;
+  const World& world_;  // with the times that events have set
   array<Frustum, 2> directions_;
   Vec3 middle_ = Vec3::Zero();    // m, of all bodies at the first instant
   double start_ = 0, time_ = 0;   // s, of the first and of the previous instant

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "physics/surface_motion.h"
+#include "physics/world_now.h"
 #include "raster/threads.h"
 #include "render/last_picture.h"
 #include "render/lighting.h"
@@ -36,7 +37,7 @@ Size checked(Size size, int samples) {
 
 struct Renderer::Impl {
   Impl(const Scene& s, Size picture_size, int samples)
-      : given(s),
+      : given(s.world),
         moved(s.world.moves() ? make_unique<Scene>(s) : nullptr),
         scene(moved ? *moved : s),
         size(checked(picture_size, samples)),
@@ -63,7 +64,7 @@ struct Renderer::Impl {
   void prepare();
   void draw(const State& state, Drawing drawing);
 
-  const Scene& given;
+  WorldNow given;
   const unique_ptr<Scene> moved;  // with fixed things where they are in the last picture; null: nothing moves
   const Scene& scene;             // the one that is shown
   const Size size;
@@ -107,7 +108,7 @@ void Renderer::Impl::prepare() {
 }
 
 void Renderer::Impl::draw(const State& state, Drawing drawing) {
-  const bool placed = moved && place_fixed_things(given.world, state.time, moved->world);
+  const bool placed = moved && place_fixed_things(given.at(state.fired), state.time, moved->world);
   if (drawn > 0 && !placed && last.is_of(state, drawing)) return;
   if (placed) edges = room_edges(scene);
 

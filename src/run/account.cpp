@@ -100,6 +100,13 @@ StoredEnergy stored_energy(const Scene& scene, const State& state) {
   return {kinetic_energy(scene.world, state), potential_energy(scene.world, state)};
 }
 
+vector<SceneEvent> events_of(const Scene& scene, span<const double> fired) {
+  vector<SceneEvent> events;
+  for (size_t k = 0; k < fired.size(); ++k)
+    events.push_back({scene.roster.events[k], fired[k] < not_yet ? fired[k] : numeric_limits<double>::quiet_NaN()});
+  return events;
+}
+
 // The energy at the start is that of the first row of energy.csv.
 // By then bodies of the exact engine have their impulses.
 // Bodies of the book engine receive theirs as a force in the first frame, which counts as work.
@@ -112,6 +119,7 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.duration = tally.end ? tally.end->time : scene.simulate.duration;
   summary.ended_by = ended_by(scene, tally);
 
+  // Counts.
   summary.bodies = scene.world.body_count();
   summary.collisions = tally.collisions();
   summary.body_body = tally.body_body;
@@ -125,26 +133,27 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
   summary.energy.end = last.total();
   summary.energy.lost = tally.energy_lost;
   summary.energy.work = tally.work;
-  summary.energy.removed = tally.passed.removed.energy;
-  summary.energy.appeared = tally.passed.appeared.energy;
+  summary.energy.removed = tally.changes.removed.energy;
+  summary.energy.appeared = tally.changes.appeared.energy;
   summary.energy.residual = summary.energy.end - summary.energy.start - summary.energy.work + summary.energy.lost +
                             summary.energy.removed - summary.energy.appeared;
   summary.energy.turnover = greatest_kinetic(scene.world, start, last, tally) +
                             std::abs(last.potential - start.potential) + std::abs(tally.energy_lost) +
-                            std::abs(tally.work) + std::abs(tally.passed.removed.energy) +
-                            std::abs(tally.passed.appeared.energy);
+                            std::abs(tally.work) + std::abs(tally.changes.removed.energy) +
+                            std::abs(tally.changes.appeared.energy);
 
-  const Vec3 passed = tally.passed.removed.momentum - tally.passed.appeared.momentum;
+  const Vec3 passed = tally.changes.removed.momentum - tally.changes.appeared.momentum;
   summary.momentum_drift = (momentum(scene.world, end) + passed - starting_momentum(scene)).norm();
   summary.max_overlap = tally.max_overlap;
   summary.max_speed = tally.fastest.speed;
   summary.resting = tally.resting;
   summary.stepped_contact = tally.stepped_contact;
 
+  // What only the report has.
   summary.contact = {tally.merges,
                      tally.tautened,
-                     tally.passed.removed.bodies,
-                     tally.passed.appeared.bodies,
+                     tally.changes.removed.bodies,
+                     tally.changes.appeared.bodies,
                      tally.collapses,
                      tally.taken_up,
                      tally.doubts.contact_made,
@@ -152,6 +161,8 @@ Summary account_of(const Scene& scene, const EngineChoice& engine, const StoredE
                      tally.doubts.unsolved_steps,
                      tally.shared,
                      first_shared(scene, tally.shared)};
+
+  summary.contact.events = events_of(scene, tally.changes.fired);
   summary.energy.of_forces = work_of_forces(scene, end, tally);
   return summary;
 }

@@ -1,5 +1,6 @@
 #include "run/record_queue.h"
 
+#include "physics/trigger.h"
 #include "std.h"
 
 namespace carom {
@@ -10,9 +11,22 @@ constexpr size_t most_parts = 65536;
 
 }  // namespace
 
+/// Adds the events that are new.
+void RecordQueue::add_events(const vector<double>& fired, Batch& batch) {
+  fired_.resize(fired.size(), not_yet);
+  for (uint32_t k = 0; k < fired.size(); ++k) {
+    if (fired_[k] == fired[k]) continue;
+    Recorded& recorded = batch.emplace_back();
+    recorded.kind = Recorded::Kind::event;
+    recorded.event = {k, fired[k]};
+  }
+  fired_ = fired;
+}
+
 void RecordQueue::put(const Simulator& simulator) {
   Batch batch;
   batch.reserve(simulator.collisions().size() + simulator.paths().size());
+  add_events(simulator.tally().changes.fired, batch);
   in_order(
       simulator.collisions(), simulator.paths(),
       [&](const CollisionMark& mark) {

@@ -26,8 +26,10 @@ class RecordQueue {
 
  private:
   using Batch = vector<Recorded>;
+  void add_events(const vector<double>& fired, Batch& batch);
   enum class State { open, whole, abandoned };
 
+  vector<double> fired_;  // of the writer: the events that have been added
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Batch> batches_;

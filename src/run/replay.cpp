@@ -23,13 +23,22 @@ Instant instant(const DoubleDouble& time) {
 }  // namespace
 
 Replay::Replay(const World& world, NextRecorded next, const Tally& tally, bool counts)
-    : world_(world), next_(std::move(next)), tally_(tally), end_(tally.end), now_(world.body_count()) {
+    : known_(world),
+      world_(known_.at(tally.changes.fired)),
+      next_(std::move(next)),
+      tally_(tally),
+      end_(tally.end),
+      now_(world.body_count()) {
   tally_.end.reset();
+  if (tally.changes.fired.empty()) tally_.changes.fired.assign(world.triggers.all.size(), not_yet);
   if (counts) tally_.body_body = tally_.body_fixed = tally_.merges = tally_.tautened = 0;
   more_ = next_(coming_);
 
   // The state at time 0 is before whatever happens then: each body is on its first piece.
-  for (size_t begun = 0; more_ && begun < now_.size(); ++begun) take_coming();
+  for (size_t begun = 0; more_ && begun < now_.size();) {
+    if (coming_.kind == Recorded::Kind::piece) ++begun;
+    take_coming();
+  }
 }
 
 void Replay::take_coming() {
@@ -37,6 +46,9 @@ void Replay::take_coming() {
     const CollisionMark& mark = coming_.collision;
     tally_.count(mark.kind);
     collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, 0, 0});
+  } else if (coming_.kind == Recorded::Kind::event) {
+    tally_.changes.fired[coming_.event.trigger] = coming_.event.fired;
+    known_.at(tally_.changes.fired);
   } else {
     take(coming_.piece);
     passed_.push_back(coming_.piece);
@@ -141,6 +153,8 @@ const State& Replay::state() {
   state_.velocity.resize(now_.size());
   const Instant at{state_.time, 0};
   for (size_t i = 0; i < now_.size(); ++i) place(i, at);
+
+  state_.fired = fired_by(tally_.changes.fired, state_.time);
 
   if (!part_of_.empty()) {
     state_.mass = mass_;

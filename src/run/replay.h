@@ -3,6 +3,7 @@
 
 #include "physics/closed_motion.h"
 #include "physics/recorded.h"
+#include "physics/world_now.h"
 #include "simulate/path/instant.h"
 #include "simulate/simulator.h"
 #include "std.h"
@@ -38,6 +39,7 @@ class Replay final : public Simulator {
   Vec3 force_at(Entity body, double time, const Vec3& x, const Vec3& v) const;
   void place(size_t body, const Instant& at);
 
+  WorldNow known_;  // with all times that events have set
   const World& world_;
   NextRecorded next_;
   Tally tally_;

@@ -164,12 +164,17 @@ constexpr AbsentWord all_words[] = {
      "leaves or arrives.",
      "room|region.action"},
     {"emitter|emit|source|spawn|pour|pouring|insert|insertion|inject|injection|inflow|feed|hopper|nozzle|generator",
-     "All bodies exist from time 0. They can be kept by a fixed thing that `motion` takes away, or start so high that "
-     "they arrive one after another.",
-     "plane.motion|obstacle.motion|groups"},
+     "A group with a `rate` pours its balls, and a body with `appear` comes later.", "groups.rate|appear"},
     {"delay|postpone|wait|start time|lag|schedule",
-     "Forces and motions begin at their `from` and end at `until`. Bodies exist from time 0.",
-     "force.from|window.from"},
+     "Forces and motions begin at their `from` and end at `until`, times or events with a delay `after`. Bodies come "
+     "at "
+     "their `appear`.",
+     "force.from|window.from|event.after|appear"},
+    {"event|happening|switch|cut|release|when",
+     "The first entry into a region or the first collision of two sets in or ends a force or a motion, or cuts a "
+     "string: "
+     "`from: {region: gate}`, `until: {collision: [red, crate]}`.",
+     "force.from|window.from|string.until|event.region|event.collision"},
     {"momentum|linear momentum|px|py|pz|conservation of momentum",
      "`output.energy` lists the momentum of all bodies, and `arrows` show that of each. An `impulse` gives a body "
      "momentum at time 0.",

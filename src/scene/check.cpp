@@ -275,7 +275,6 @@ class Checker : ValueChecker {
     const string name = in_backticks(field.key);
     const string required = "expected " + expected(field);
     const bool is_scalar = value.is_scalar(), is_map = value.is_map();
-
     switch (field.type) {
       // Single values.
       case Type::number_or_none:
@@ -318,9 +317,11 @@ class Checker : ValueChecker {
       case Type::number_or_part:
       case Type::file_or_part:
         return is_map ? part(value, field, key, partial) : value_for_part(value, field, name);
+
       case Type::name:
         if (!is_scalar) wrong_type(value, name, required);
         return;
+      case Type::name_or_two:
       case Type::two_names:
       case Type::names:
         return names(value, field, name, required);
@@ -337,9 +338,8 @@ class Checker : ValueChecker {
       case Type::texts:
         return texts(value, name, required);
       case Type::repeat:
-        // Things with good counts have become their members (expand.h). Defaults are those of each member.
-        if (partial) refuse(value, "`repeat` in `defaults`", "expected it in each thing that is repeated");
-        return;
+        return repeated(value, partial);
+
       case Type::named:
         return named(value, field, name);
       case Type::list:
@@ -348,6 +348,11 @@ class Checker : ValueChecker {
       default:
         return value_of_sweep(value, field, name, required);
     }
+  }
+
+  /// Things with good counts have become their members (expand.h). Defaults are those of each member.
+  void repeated(Node& value, bool partial) {
+    if (partial) refuse(value, "`repeat` in `defaults`", "expected it in each thing that is repeated");
   }
 
   /// Checks a value that stands in place of a map.
@@ -398,9 +403,11 @@ class Checker : ValueChecker {
   }
 
   void names(Node& value, const Field& field, const string& name, const string& required) {
+    if (field.type == Type::name_or_two && value.is_scalar()) return;
     if (!value.is_sequence()) {
       wrong_type(value, name, required + list_of_one(value, field));
-    } else if (field.type == Type::names ? value.items.empty() : value.items.size() != 2) {
+    } else if (const size_t most = field.type == Type::names ? value.items.size() : 2;
+               value.items.size() < (field.type == Type::two_names ? 2 : 1) || value.items.size() > most) {
       refuse(value, fmt::format("{} has {}", name, how_many(value.items.size(), "entry", "entries")), required);
 
     } else {

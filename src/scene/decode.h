@@ -73,7 +73,7 @@ void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagno
 /// Decodes balls, bodies and groups into world, initial state and roster.
 /// The fixed things and scene.seed must be decoded before.
 void decode_bodies(const Node& root, const Inventory& inventory, Forms& forms, Scene& scene, Diagnostics& diagnostics);
-/// Decodes gravity, combine, pairs and forces.
+/// Decodes gravity, combine, pairs and forces. The regions must be decoded before.
 void decode_laws(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the strings, all but their lengths. Bodies need not be decoded before.
 void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
@@ -83,8 +83,10 @@ void decode_lengths(const Inventory& inventory, Scene& scene, Diagnostics& diagn
 void decode_rest_lengths(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// The body of one end of a string or a spring (`what`). None: an error was reported, here or before.
 optional<Entity> body_at(const Node& name, const Inventory& inventory, string_view what, Diagnostics& diagnostics);
-/// Decodes the regions, and `simulate.stop`. Bodies need not be decoded before.
+/// Decodes the regions. Bodies need not be decoded before.
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// Decodes `simulate.stop`. The regions and `simulate` must be decoded before.
+void decode_stops(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.
 void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes simulate, lights, background and output. Checks that frames and rows are within the budget.

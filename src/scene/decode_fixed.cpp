@@ -5,6 +5,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/events.h"
 #include "scene/fields.h"
 #include "scene/hollow.h"
 #include "scene/member.h"
@@ -77,43 +78,58 @@ void add_obstacle(const View& view, const string& name, Forms& forms, Scene& sce
   }
 }
 
-/// The motion in windows that repeat after `every` (s).
-SurfaceMotion in_windows(const View& motion, double every, Diagnostics& diagnostics) {
-  const Node* const list = motion.find("windows");
-  if (list == nullptr || !list->is_sequence()) return {};
+/// The windows of a motion, with the ends that events set.
+struct Windows {
+  vector<MotionWindow> all;
+  vector<pair<WindowEnd, WindowEnd>> ends;
+  double known_until = 0;  // s, the end of the last one that no event sets
 
-  vector<MotionWindow> windows;
-  for (const Node& node : list->items) {
-    if (!node.is_map()) continue;
-    const View view(&node, kind_named("window"), node.place);
-    const auto [from, given_until, velocity] = filled<WindowKeys>(view);
-    const double until = given_until.value_or(every);
-
-    // A window has a length, and starts after the one before.
-    if (!(from < until))
-      diagnostics.add(view.place(given_until ? "until" : "from"),
-                      fmt::format("{} is {} but `from` is {}", given_until ? "`until`" : "`every`", shortest(until),
-                                  shortest(from)),
-                      fmt::format("expected from < {}", given_until ? "until" : "every"));
-
-    // It lies within a period.
-    if (from < until && until > every)
-      diagnostics.add(
-          view.place("until"),
-          fmt::format("this window ends at {} s, but the windows repeat every {} s", shortest(until), shortest(every)),
-          "expected windows from 0 to `every`");
-
-    if (!windows.empty() && from < windows.back().until) {
-      const double end = windows.back().until;
-      diagnostics.add(view.place("from"),
-                      fmt::format("this window starts at {} s, but the one before it {}", shortest(from),
-                                  std::isinf(end) ? "never ends" : fmt::format("ends at {} s", shortest(end))),
-                      "expected windows in order that do not overlap, each with `until` except the last");
-    }
-
-    if (velocity) windows.push_back({from, until, *velocity});
+  bool wait() const {
+    return any_of(ends, [](const auto& of) { return of.first.trigger || of.second.trigger; });
   }
-  return motion_in_windows(windows, every);
+};
+
+/// Adds a window that stands in the file after those of before. `every`: s, after which they repeat.
+void add_window(const View& view, double every, Windows& windows, EventDecoder& events, Diagnostics& diagnostics) {
+  const auto [given_from, given_until, velocity] = filled<WindowKeys>(view);
+  const bool ends = view.given("until") != nullptr;
+  const WindowEnd from = events.end(view, "from", given_from);
+  const WindowEnd until = events.end(view, "until", given_until.value_or(every));
+  const bool is_known = from.time < not_yet && until.time != not_yet;
+
+  if (!is_known && every < infinity)
+    diagnostics.add(view.where(), "the windows repeat, but an event happens once", "leave out `every`");
+
+  // A window has a length, lies within a period, and starts after the one before.
+  if (!events.check(view, from, until, ends ? "until" : "every")) return;
+  if (until.time > every && is_known)
+    diagnostics.add(view.place("until"),
+                    fmt::format("this window ends at {} s, but the windows repeat every {} s", shortest(until.time),
+                                shortest(every)),
+                    "expected windows from 0 to `every`");
+
+  if (is_known && from.time < windows.known_until) {
+    const double end = windows.known_until;
+    diagnostics.add(view.place("from"),
+                    fmt::format("this window starts at {} s, but the one before it {}", shortest(from.time),
+                                std::isinf(end) ? "never ends" : fmt::format("ends at {} s", shortest(end))),
+                    "expected windows in order that do not overlap, each with `until` except the last");
+  }
+
+  if (is_known) windows.known_until = until.time;
+  if (!velocity) return;
+  windows.all.push_back({from.time, until.time, *velocity});
+  windows.ends.emplace_back(from, until);
+}
+
+/// The windows that repeat after `every` (s).
+Windows windows_of(const View& motion, double every, EventDecoder& events, Diagnostics& diagnostics) {
+  Windows windows;
+  const Node* const list = motion.find("windows");
+  if (list == nullptr || !list->is_sequence()) return windows;
+  for (const Node& node : list->items)
+    if (node.is_map()) add_window(View(&node, kind_named("window"), node.place), every, windows, events, diagnostics);
+  return windows;
 }
 
 /// The motion on a circle from a place (m) on.
@@ -131,13 +147,14 @@ SurfaceMotion on_circle(const View& motion, const CircleKeys& keys, const Vec3& 
 
 /// Lets the things of an entry move, all alike. `place`: m, that of the entry in the file. `places`: m, those of the
 /// things, which become those at time 0.
-void add_motion(const FixedEntry& entry, const Vec3& place, span<Vec3* const> places, Scene& scene,
-                Diagnostics& diagnostics) {
+void add_motion(const FixedEntry& entry, const Vec3& place, span<Vec3* const> places, const Inventory& inventory,
+                Scene& scene, Diagnostics& diagnostics) {
   const Node* const given = entry.view.find("motion");
   if (given == nullptr || !given->is_map()) return;
   const View view(given, kind_named("motion"), given->place);
   const auto keys = filled<MotionKeys>(view);
 
+  // In one of the three ways.
   SurfaceMotion motion;
   if (keys.sine) {
     motion = motion_on_sine(keys.sine->amplitude, keys.sine->period, keys.sine->phase);
@@ -145,8 +162,15 @@ void add_motion(const FixedEntry& entry, const Vec3& place, span<Vec3* const> pl
       if (motion.swing) *each -= motion.swing->middle;
   } else if (keys.circle) {
     motion = on_circle(view, *keys.circle, place, diagnostics);
+
   } else {
-    motion = in_windows(view, keys.every.value_or(infinity), diagnostics);
+    const double every = keys.every.value_or(infinity);
+    EventDecoder events(inventory, scene, diagnostics);
+    const Windows windows = windows_of(view, every, events, diagnostics);
+    motion = windows.wait() ? motion_by_events(windows.all) : motion_in_windows(windows.all, every);
+    for (Entity k = entry.first; k < entry.first + entry.count; ++k)
+      for (size_t w = 0; w < windows.ends.size(); ++w)
+        events.wait(TriggeredEnd::Of::motion, k, windows.ends[w].first, windows.ends[w].second, w);
   }
 
   if (!motion.moves()) return;
@@ -184,7 +208,7 @@ void decode_fixed(const Inventory& inventory, Forms& forms, Scene& scene, Diagno
     for (size_t k = world.obstacles.size() - (kind == "obstacle" ? entry.count : 0); k < world.obstacles.size(); ++k)
       places.push_back(&world.obstacles[k].center);
     const Vec3 place = kind == "obstacle" ? filled<ObstacleKeys>(view).position : *places.front();
-    add_motion(entry, place, places, scene, diagnostics);
+    add_motion(entry, place, places, inventory, scene, diagnostics);
   }
   if (scene.world.moves()) scene.world.motions.resize(scene.world.fixed_count());
 }

@@ -4,6 +4,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/events.h"
 #include "scene/fields.h"
 #include "scene/member.h"
 #include "scene/scene.h"
@@ -113,8 +114,14 @@ optional<SpringEnds> ends_of(const SpringKeys& spring, const Inventory& inventor
 /// A rest length that is the distance of the ends at time 0, until bodies are decoded.
 constexpr double distance_at_start = numeric_limits<double>::quiet_NaN();
 
+/// The ends of a force's window.
+struct ForceWindow {
+  WindowEnd from, until;
+};
+
 /// A spring between two ends.
-void decode_spring(const ForceKeys& force, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+void decode_spring(const ForceKeys& force, const ForceWindow& when, EventDecoder& events, const Inventory& inventory,
+                   Scene& scene, Diagnostics& diagnostics) {
   const SpringKeys& keys = *force.spring;
   if (force.on != nullptr)
     diagnostics.add(force.on->place, "`on` beside `from` and `to`: the spring acts on its two ends",
@@ -127,35 +134,38 @@ void decode_spring(const ForceKeys& force, const Inventory& inventory, Scene& sc
   if (ends->b == no_entity) {
     if (!force.visible) scene.overlay.hidden_springs.push_back(world.forces.size());
     const Spring spring{ends->point, keys.stiffness, rest_length, keys.damping};
-    world.forces.push_back({spring, force.from, force.until, {ends->a}});
+    events.wait(TriggeredEnd::Of::force, world.forces.size(), when.from, when.until);
+    world.forces.push_back({spring, when.from.time, when.until.time, {ends->a}});
   } else {
     if (!force.visible) scene.overlay.hidden_body_springs.push_back(world.springs.size());
-    world.springs.push_back({ends->a, ends->b, keys.stiffness, rest_length, keys.damping, force.from, force.until});
+    events.wait(TriggeredEnd::Of::body_spring, world.springs.size(), when.from, when.until);
+    world.springs.push_back(
+        {ends->a, ends->b, keys.stiffness, rest_length, keys.damping, when.from.time, when.until.time});
   }
 }
 
 void decode_force(const Node& node, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   const View view(&node, kind_named("force"), node.place);
   const auto force = filled<ForceKeys>(view);
-  if (force.until <= force.from) {
-    diagnostics.add(view.place("until"),
-                    fmt::format("`until` is {} but `from` is {}", shortest(force.until), shortest(force.from)),
-                    "expected from < until");
-  }
+  EventDecoder events(inventory, scene, diagnostics);
+  const ForceWindow when{events.end(view, "from", force.from), events.end(view, "until", force.until)};
+  events.check(view, when.from, when.until);
   if (force.spring && (force.spring->from != nullptr || force.spring->to != nullptr))
-    return decode_spring(force, inventory, scene, diagnostics);
+    return decode_spring(force, when, events, inventory, scene, diagnostics);
 
   optional<vector<Entity>> on = find_bodies(force.on, inventory, "no force acts on it", diagnostics);
   if (on && force.gravitation && force.gravitation->constant != 0) {
     const auto [constant, softening] = *force.gravitation;
-    scene.world.gravitations.push_back({constant, softening, force.from, force.until, std::move(*on)});
+    events.wait(TriggeredEnd::Of::gravitation, scene.world.gravitations.size(), when.from, when.until);
+    scene.world.gravitations.push_back({constant, softening, when.from.time, when.until.time, std::move(*on)});
     return;
   }
 
   const optional<ForceLaw> law = law_of(force);
   if (!law || !on || !std::visit([](const auto& any) { return has_effect(any); }, *law)) return;
   if (!force.visible) scene.overlay.hidden_springs.push_back(scene.world.forces.size());
-  scene.world.forces.push_back({*law, force.from, force.until, std::move(*on)});
+  events.wait(TriggeredEnd::Of::force, scene.world.forces.size(), when.from, when.until);
+  scene.world.forces.push_back({*law, when.from.time, when.until.time, std::move(*on)});
 }
 
 }  // namespace

@@ -66,7 +66,9 @@ class RegionDecoder {
       scene_.world.regions.push_back(decode_region(view, key.text, inventory_, diagnostics_));
       scene_.roster.regions.push_back(key.text);
     }
+  }
 
+  void decode_stops() {
     const Node* stops = scene_part(root_, "simulate").given("stop");
     if (stops == nullptr || !stops->is_sequence()) return;
     for (const Node& stop : stops->items) stop.is_map() ? take_stop(stop) : take_word(stop);
@@ -115,6 +117,10 @@ class RegionDecoder {
 
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   RegionDecoder(root, inventory, scene, diagnostics).decode();
+}
+
+void decode_stops(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
+  RegionDecoder(root, inventory, scene, diagnostics).decode_stops();
 }
 
 }  // namespace carom

@@ -4,6 +4,7 @@
 
 #include "physics/world.h"
 #include "scene/decode.h"
+#include "scene/events.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -61,6 +62,7 @@ String decode_string(const View& view, const Inventory& inventory, Diagnostics& 
   string.body = no_entity;
   string.restitution = keys.restitution;
   string.rod = keys.rod;
+  string.until = keys.until;
 
   const bool good = keys.from != nullptr && keys.to != nullptr && !keys.from->bad && !keys.to->bad;
   const bool is_point = keys.from != nullptr && keys.from->is_sequence();
@@ -195,7 +197,12 @@ void decode_strings(const Inventory& inventory, Scene& scene, Diagnostics& diagn
   for (const StringEntry& entry : inventory.strings) {
     const View& view = entry.view;
     if (!view.flag("visible").value_or(true)) scene.overlay.hidden_strings.push_back(scene.world.strings.size());
-    scene.world.strings.push_back(decode_string(view, inventory, diagnostics));
+    String string = decode_string(view, inventory, diagnostics);
+    EventDecoder events(inventory, scene, diagnostics);
+    const WindowEnd until = events.end(view, "until", string.until);
+    string.until = until.time;
+    events.wait(TriggeredEnd::Of::string, scene.world.strings.size(), {0}, until);
+    scene.world.strings.push_back(string);
     scene.roster.strings.push_back(entry.key->text);
   }
 }

@@ -28,6 +28,7 @@ enum class Type : uint8_t {
   name,            // of a body or a fixed thing
   point_or_name,   // [x, y, z], numbers in range, or the name of a body
   two_names,       // [name, name] of bodies or fixed things
+  name_or_two,     // a name, or a list of one or two
   /// A list of names, at least one. If Field::of is given, they are from it, separated by |.
   names,
   part,  // a map of kind Field::of

@@ -30,6 +30,7 @@ constexpr TypeFacts all_types[] = {
     {Type::name, "a name"},
     {Type::point_or_name, "[x, y, z], three numbers{limits}{unit}, or a name", Inside::numbers, axes},
     {Type::two_names, "[name, name]"},
+    {Type::name_or_two, "a name, or a list of one or two names"},
     {Type::names, "a list of names, such as {example}", Inside::nothing, "", "a list of {choices}"},
     {Type::part, "a map of keys", Inside::map, "", "a map of keys, or a value of `{plain}`"},
     {Type::part_or_flag, "true, false or a map of keys", Inside::map},

@@ -184,9 +184,15 @@ constexpr Field motion_fields[] = {
 };
 
 constexpr Field window_fields[] = {
-    row<WindowKeys, &WindowKeys::from>("from", "When the motion starts.", "0.5", {.unit = "s", .range = from_0, .title = "Start"}),
-    row_if_given<WindowKeys, &WindowKeys::until>("until", "When the motion ends. Default: never; of windows that repeat, with their period.", "1.5", {.unit = "s", .range = above_0, .title = "End"}),
+    row<WindowKeys, &WindowKeys::from>("from", "When the motion starts. A map: at an event.", "0.5", {.type = Type::number_or_part, .unit = "s", .range = from_0, .of = "event", .title = "Start"}),
+    row_if_given<WindowKeys, &WindowKeys::until>("until", "When the motion ends. A map: at an event. Default: never; of windows that repeat, with their period.", "{region: gate, after: 0.2}", {.type = Type::number_or_part, .unit = "s", .range = above_0, .of = "event", .title = "End"}),
     row<WindowKeys, &WindowKeys::velocity>("velocity", "Its velocity in this window.", "[0, 0.5, 0]", {.unit = "m/s", .needed = true}),
+};
+
+constexpr Field event_fields[] = {
+    row<EventKeys, &EventKeys::region>("region", "The first entry of a body into this region.", "gate", {.type = Type::name, .one_of = "region|collision", .needed = true, .pattern = reference}),
+    row<EventKeys, &EventKeys::collision>("collision", "The first collision of these two; of one name: with anything. A string collides where it goes taut.", "[red, crate]", {.type = Type::name_or_two, .one_of = "region|collision", .pattern = reference}),
+    row<EventKeys, &EventKeys::after>("after", "Time from the event on.", "0.2", {.unit = "s", .range = from_0, .title = "Delay"}),
 };
 
 constexpr Field sine_fields[] = {
@@ -237,6 +243,7 @@ constexpr Field string_fields[] = {
     row<StringKeys, &StringKeys::length>("length", "Greatest distance of its ends; of a rod the distance. Default: the distance at time 0.", "1.5", {.unit = "m", .range = above_0}),
     row<StringKeys, &StringKeys::restitution>("restitution", "Coefficient of restitution where the string goes taut.", "0.2", {.range = from_0}),
     row<StringKeys, &StringKeys::rod>("rod", "Whether it keeps its ends apart, too.", "true", {.title = "Rod"}),
+    row_if_given<StringKeys, &StringKeys::until>("until", "When it is cut. A map: at an event. Default: never.", "{region: gate}", {.type = Type::number_or_part, .unit = "s", .range = above_0, .of = "event", .title = "Cut"}),
     visible<StringKeys>, repeat,
 };
 
@@ -268,8 +275,8 @@ constexpr Field force_fields[] = {
     row<ForceKeys, &ForceKeys::attractor>("attractor", "Attraction to a fixed point, as by gravity.", "{center: [0, 0, 0], strength: 10}", {.of = "attractor", .one_of = forces}),
     row<ForceKeys, &ForceKeys::gravitation>("gravitation", "Mutual attraction of all bodies of `on`.", "{constant: 6.674e-11, softening: 0.01}", {.of = "gravitation", .one_of = forces}),
     row<ForceKeys, &ForceKeys::on>("on", "Balls, bodies, groups and members that it acts on. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that it acts on", .pattern = reference}),
-    row<ForceKeys, &ForceKeys::from>("from", "When the force starts.", "0.5", {.unit = "s", .range = from_0, .title = "Start"}),
-    row_if_given<ForceKeys, &ForceKeys::until>("until", "When the force ends. Default: never.", "1.5", {.unit = "s", .range = above_0, .title = "End"}),
+    row<ForceKeys, &ForceKeys::from>("from", "When the force starts. A map: at an event.", "0.5", {.type = Type::number_or_part, .unit = "s", .range = from_0, .of = "event", .title = "Start"}),
+    row_if_given<ForceKeys, &ForceKeys::until>("until", "When the force ends. A map: at an event. Default: never.", "{collision: [red, crate]}", {.type = Type::number_or_part, .unit = "s", .range = above_0, .of = "event", .title = "End"}),
     row_if_given<ForceKeys, &ForceKeys::visible>("visible", "Whether the spring is drawn. Default: true.", "false", {.with = "spring", .drawn = true}),
     repeat,
 };
@@ -389,6 +396,10 @@ constexpr Kind kinds_of_scenes[] = {
     {"obstacle", "an", "A body that no impact moves.", obstacle_fields, nullptr, "obstacle"},
     {"motion", "", "How a fixed thing moves.", motion_fields},
     {"window", "a", "A window of time in which a fixed thing moves.", window_fields},
+    {"event", "an",
+     "The first of its kind in a run, in place of a time. Where it does not happen, what waits for it waits to the "
+     "end.",
+     event_fields},
     {"sine", "", "A motion back and forth.", sine_fields},
     {"circle", "", "A motion round an axis.", circle_fields},
     {"string", "a", "A string without mass that does not stretch: slack while its ends are nearer than its length.",

@@ -65,7 +65,9 @@ class BodyGrid {
   void link(uint32_t member);
   optional<Overlap> overlap_with(const Member& member, const Member& body, double relative) const;
   optional<Overlap> overlap_in_chain(uint32_t head, const Member& body, double relative) const;
-  bool is_ball(Entity entity) const { return world_ == nullptr || (world_->volume_of(entity).shape == Shape::sphere && !world_->is_shell(entity)); }
+  bool is_ball(Entity entity) const {
+    return world_ == nullptr || (world_->volume_of(entity).shape == Shape::sphere && !world_->is_shell(entity));
+  }
 
   const World* world_;
   struct Link {

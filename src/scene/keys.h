@@ -106,7 +106,14 @@ struct GroupKeys {
   optional<OverlapRule> overlap;
 };
 
-/// A window of time in which a fixed thing moves.
+/// An event in place of a time.
+struct EventKeys {
+  const Node* region = nullptr;     // a name
+  const Node* collision = nullptr;  // one or two names
+  double after = 0;                 // s
+};
+
+/// A window of time in which a fixed thing moves. Either end may be an event: it is then the default here.
 struct WindowKeys {
   double from = 0;          // s
   optional<double> until;   // s; none: never, or where the windows repeat
@@ -176,6 +183,7 @@ struct StringKeys {
   optional<double> length;     // m; none: the distance of its ends at time 0
   double restitution = 0;      // of the impact where it goes taut
   bool rod = false;
+  double until = infinity;  // s, or an event
   bool visible = true;
 };
 
@@ -213,8 +221,8 @@ struct ForceKeys {
   optional<Attractor> attractor;
   optional<GravitationKeys> gravitation;
   const Node* on = nullptr;  // names; null: all bodies
-  double from = 0;           // s
-  double until = infinity;   // s
+  double from = 0;           // s, or an event
+  double until = infinity;   // s, or an event
   bool visible = true;       // whether its springs are drawn
 };
 

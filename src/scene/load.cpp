@@ -126,13 +126,14 @@ struct SceneFile::Impl {
 
     // The world.
     const Inventory inventory = take_inventory(tree, options.budget, diagnostics);
+    if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
     decode_laws(tree, inventory, scene, diagnostics);
     Forms forms(folder, options, diagnostics);
     decode_fixed(inventory, forms, scene, diagnostics);
     if (inventory.fits) decode_strings(inventory, scene, diagnostics);
 
     decode_requests(tree, inventory, options, scene, diagnostics);
-    if (inventory.fits) decode_regions(tree, inventory, scene, diagnostics);
+    if (inventory.fits) decode_stops(tree, inventory, scene, diagnostics);
     if (inventory.fits) decode_bodies(tree, inventory, forms, scene, diagnostics);
     if (inventory.fits) decode_lengths(inventory, scene, diagnostics);
     if (inventory.fits) decode_rest_lengths(tree, inventory, scene, diagnostics);

@@ -24,7 +24,7 @@ class MotionText {
   string run() {
     simulate();
     const auto& [mass, radius, volume, restitution, impulse, appears, pours, planes, walls, obstacles, motions, forces,
-                 gravity, combine, pairs, regions, strings, springs, gravitations] = scene_.world;
+                 gravity, combine, pairs, regions, strings, springs, gravitations, triggers] = scene_.world;
 
     line("gravity", gravity, "combine", int(combine));
     for (const auto& [a_first, a_count, b_first, b_count, value] : pairs)
@@ -51,8 +51,10 @@ class MotionText {
 
     for (const Force& force : forces) write(force);
     for (const WorldRegion& region : regions) write(region);
-    for (const auto& [body, other, anchor, length, own, rod] : strings)
+    for (const auto& [body, other, anchor, length, own, rod, until] : strings) {
       line("string", body, other, anchor, length, own, int(rod));
+      if (until < infinity) line("until", until);
+    }
 
     for (const auto& [a, b, stiffness, rest_length, damping, from, until] : springs)
       line("between", a, b, stiffness, rest_length, damping, from, until);
@@ -60,6 +62,14 @@ class MotionText {
       line("gravitation", constant, softening, from, until);
       for (const Entity body : on) line("on", body);
     }
+
+    // Times that events set.
+    for (const auto& [entered, a, b] : triggers.all) {
+      if (entered) line("entry", entered->first, entered->count);
+      line("event", a.first, a.count, b.first, b.count);
+    }
+    for (const auto& [of, index, window, ends, trigger, after] : triggers.ends)
+      line("at", int(of), index, window, int(ends), trigger, after);
     return std::move(text_);
   }
 
@@ -79,9 +89,10 @@ class MotionText {
   }
 
   void write(size_t fixed, const SurfaceMotion& motion) {
-    const auto& [legs, every, gain, gain_low, swing] = motion;
+    const auto& [legs, every, gain, gain_low, swing, windows] = motion;
     for (const auto& [from, velocity, start, start_low] : legs) line("motion", fixed, from, velocity, start, start_low);
     if (every < infinity) line("every", fixed, every, gain, gain_low);
+    for (const auto& [from, until, velocity] : windows) line("window", fixed, from, until, velocity);
     if (swing) line("swing", fixed, swing->period, swing->middle, swing->sine, swing->cosine);
   }
 

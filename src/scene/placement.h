@@ -1,11 +1,11 @@
 #pragma once
 // Places the balls of a group.
 
+#include "numerics/random.h"
 #include "physics/entity.h"
 #include "physics/volume.h"
 #include "scene/grid.h"
 #include "scene/keys.h"
-#include "numerics/random.h"
 #include "std.h"
 
 namespace carom {

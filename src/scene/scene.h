@@ -81,6 +81,7 @@ struct Roster {
   vector<FixedLook> fixed;
   vector<string> strings;                        // by number in World::strings
   vector<string> regions;                        // by number in World::regions
+  vector<string> events;                         // by number in World::triggers: "{region: gate}"
   vector<EmptyFamily> empty;                     // in no particular order
   string name(Entity e) const;                   // "red", "gas.17", "lane", "s1"
   const BodyRange& range_of(Entity body) const;  // the range that holds this body

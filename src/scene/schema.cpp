@@ -85,13 +85,20 @@ Json whole_schema(const Range& range) {
   return schema;
 }
 
-Json array_schema(Json each, int count) {
-  return {{"type", "array"}, {"items", std::move(each)}, {"minItems", count}, {"maxItems", count}};
+/// least: 0: as many as `count`.
+Json array_schema(Json each, int count, int least = 0) {
+  return {{"type", "array"}, {"items", std::move(each)}, {"minItems", least > 0 ? least : count}, {"maxItems", count}};
 }
 
 Json numbers_schema(const Field& field) {
   return array_schema(holds_whole_numbers(field) ? whole_schema(field.range) : number_schema(limited_range(field)),
                       int(parts_of(facts_of(field.type).components).size()));
+}
+
+Json direction_schema(const Field& field) {
+  Json schema = numbers_schema(field);
+  schema["not"] = {{"items", {{"const", 0}}}};
+  return schema;
 }
 
 /// Any scalar is a text, whatever type a YAML parser gives it.
@@ -209,11 +216,8 @@ Json value_schema(const Field& field) {
     case Type::vector:
     case Type::extent:
       return numbers_schema(field);
-    case Type::direction: {
-      Json schema = numbers_schema(field);
-      schema["not"] = {{"items", {{"const", 0}}}};
-      return schema;
-    }
+    case Type::direction:
+      return direction_schema(field);
     case Type::pixels:
       return either(numbers_schema(field), choice_schema(field));
     case Type::point_or_name:
@@ -230,8 +234,11 @@ Json value_schema(const Field& field) {
     case Type::number_or_part:
     case Type::file_or_part:
       return either(value_for_part(field), reference(field.of));
+
     case Type::two_names:
       return array_schema(text_schema(field), 2);
+    case Type::name_or_two:
+      return either(text_schema(field), array_schema(text_schema(field), 2, 1));
     case Type::names:
       return {{"type", "array"},
               {"items", field.of.empty() ? text_schema(field) : choice_schema(field)},

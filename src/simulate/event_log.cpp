@@ -10,9 +10,14 @@
 
 namespace carom {
 
-EventLog::EventLog(uint64_t max_collisions, bool record_collisions, size_t forces, bool coupled)
-    : max_collisions_(max_collisions), record_collisions_(record_collisions), force_work_(forces + (coupled ? 2 : 0)) {
+EventLog::EventLog(uint64_t max_collisions, bool record_collisions, size_t forces, bool coupled,
+                   span<const Trigger> triggers)
+    : max_collisions_(max_collisions),
+      record_collisions_(record_collisions),
+      triggers_(triggers),
+      force_work_(forces + (coupled ? 2 : 0)) {
   tally_.force_work.resize(force_work_.size());
+  tally_.changes.fired.assign(triggers.size(), not_yet);
   if (record_collisions) collisions_.reserve(capacity);
 }
 
@@ -20,9 +25,18 @@ void EventLog::record(const Collision& collision) {
   tally_.count(collision.kind, collision.time);
   if (collision.kind == CollisionKind::rest) add_absorbed(-collision.energy_lost);
   if (record_collisions_) collisions_.push_back(collision);
+  if (!triggers_.empty()) [[unlikely]]
+    note_event(collision);
   if (max_collisions_ > 0 && tally_.collisions() > max_collisions_)
     throw SimulationError(fmt::format("more than simulate.max_collisions = {} collisions, reached at t = {} s",
                                       max_collisions_, collision.time));
+}
+
+uint32_t EventLog::take_noted(double time) {
+  const uint32_t trigger = noted_.back();
+  noted_.pop_back();
+  tally_.changes.fired[trigger] = time;
+  return trigger;
 }
 
 void EventLog::pass(Passage& passage, Sum& sum, double energy, const Vec3& momentum) {

@@ -5,6 +5,7 @@
 #include "physics/collision.h"
 #include "physics/coupled_forces.h"
 #include "physics/tally.h"
+#include "physics/trigger.h"
 #include "solver/contact_problem.h"
 #include "std.h"
 
@@ -21,7 +22,9 @@ class EventLog {
  public:
   /// max_collisions: one more is an error; 0: no limit. record_collisions: if false, collisions are only counted,
   /// without a buffer. `forces`: number of forces with sums of their own. coupled: there are forces between bodies.
-  EventLog(uint64_t max_collisions, bool record_collisions, size_t forces = 0, bool coupled = false);
+  /// `triggers` must outlive this object.
+  EventLog(uint64_t max_collisions, bool record_collisions, size_t forces = 0, bool coupled = false,
+           span<const Trigger> triggers = {});
 
   /// Empties the buffer for the next advance.
   void begin_advance() { collisions_.clear(); }
@@ -30,6 +33,12 @@ class EventLog {
   /// Whether so many more collisions fit into the buffer. It grows if they do not, so an advance should end before.
   bool has_room(size_t more) const { return collisions_.size() + more < capacity; }
   span<const Collision> collisions() const { return collisions_; }  // in order
+
+  /// Notes the triggers that a crossing is the event of.
+  void note(const RegionCrossing& crossing) { note_event(crossing); }
+  /// Whether triggers have been noted that are not yet taken: the next of them, which happens at `time` (s).
+  bool has_noted() const { return !noted_.empty(); }
+  uint32_t take_noted(double time);
 
   /// Books energy (J) lost in an impact; negative: made.
   void lose(double energy) {
@@ -110,9 +119,9 @@ class EventLog {
   void note(const SharedImpacts& now);
   void count_collapse() { ++tally_.collapses; }
   /// Books a body that leaves the world, with its energy (J) and momentum (kg m/s).
-  void remove(double energy, const Vec3& momentum) { pass(tally_.passed.removed, removed_, energy, momentum); }
+  void remove(double energy, const Vec3& momentum) { pass(tally_.changes.removed, removed_, energy, momentum); }
   /// The same for one that comes into the world.
-  void appear(double energy, const Vec3& momentum) { pass(tally_.passed.appeared, appeared_, energy, momentum); }
+  void appear(double energy, const Vec3& momentum) { pass(tally_.changes.appeared, appeared_, energy, momentum); }
   void end(const RunEnd& end) { tally_.end = end; }
   /// Counts a solution without a certificate.
   void note(const Certificate& certificate) {
@@ -134,10 +143,18 @@ class EventLog {
     tally_.taken_up.energy = absorbed_.value();
   }
 
+  void note_event(const auto& event) {
+    for (uint32_t k = 0; k < triggers_.size(); ++k)
+      if (tally_.changes.fired[k] == not_yet && !contains(noted_, k) && is_event(triggers_[k], event))
+        noted_.push_back(k);
+  }
+
   static void pass(Passage& passage, Sum& sum, double energy, const Vec3& momentum);
 
   const uint64_t max_collisions_;
   const bool record_collisions_;
+  const span<const Trigger> triggers_;
+  vector<uint32_t> noted_;
   vector<Collision> collisions_;
   Tally tally_;
   Sum energy_lost_, absorbed_, made_, method_error_, work_, removed_, appeared_;  // J

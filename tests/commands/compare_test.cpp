@@ -41,10 +41,11 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
   ASSERT_EQ(files.size(), 3u);
 
   const string& table = files.at("summary.csv");
-  EXPECT_NE(table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,appeared_J,"
-                       "balls.red.restitution,balls.red.speed_m_"
-                       "per_s\na,Two balls,exact,done,1,"),
-            string::npos)
+  EXPECT_NE(
+      table.find(",resting,frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,appeared_J,"
+                 "balls.red.restitution,balls.red.speed_m_"
+                 "per_s\na,Two balls,exact,done,1,"),
+      string::npos)
       << table;
   EXPECT_NE(table.find("\nc,"), string::npos);
   EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));

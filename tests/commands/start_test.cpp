@@ -365,9 +365,9 @@ TEST(Start, RefusesBodiesThatHaveMergedAndKeepsMassesOfTheScene) {
 
     const Finished both = here.carom({"check", "both.yaml"});
     EXPECT_EQ(both.code, 2);
-    EXPECT_NE(
-        both.err.find(": error: at 1 s of the run `blue` is out of the world: merged into another body, removed by a region, or yet to appear\n"),
-        string::npos)
+    EXPECT_NE(both.err.find(": error: at 1 s of the run `blue` is out of the world: merged into another body, removed "
+                            "by a region, or yet to appear\n"),
+              string::npos)
         << both.err;
     EXPECT_EQ(here.carom({"check", "both.yaml", "--set", "start.at=0.25"}).code, 0);
 

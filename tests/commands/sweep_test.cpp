@@ -91,9 +91,9 @@ TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
     EXPECT_TRUE(here.has("output/offsets/" + name)) << name;
   const vector<string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 7u);
-  EXPECT_TRUE(
-      rows[0].ends_with(",frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,appeared_J,balls.red."
-                        "position.z,balls.red.mass,balls.red.speed_m_per_s"))
+  EXPECT_TRUE(rows[0].ends_with(
+      ",frames,stepped_contact_s,removed_J,ended_by,energy_absorbed_J,contact_made_J,appeared_J,balls.red."
+      "position.z,balls.red.mass,balls.red.speed_m_per_s"))
       << rows[0];
   EXPECT_TRUE(rows[4].starts_with("r0004,")) << rows[4];
   EXPECT_NE(rows[4].find(",0.025,10,"), string::npos) << rows[4];

@@ -257,7 +257,8 @@ TEST(OwnMeasures, AreTheLastColumnsOfTheSummary) {
                                "twice: '= 2 * end'}"),
             "run");
   const string summary = place.read("run/summary.csv");
-  EXPECT_NE(summary.find(",ended_by,energy_absorbed_J,contact_made_J,appeared_J,end,more,twice\n"), string::npos) << summary;
+  EXPECT_NE(summary.find(",ended_by,energy_absorbed_J,contact_made_J,appeared_J,end,more,twice\n"), string::npos)
+      << summary;
   EXPECT_NE(summary.find(",duration,0,0,0,-0.7,-2.8,-1.4\n"), string::npos) << summary;
 }
 

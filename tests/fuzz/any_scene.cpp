@@ -184,7 +184,7 @@ void everything(Maker& m, bool tied) {
 
   m.scene.options.merge = m.chance(0.05);
   if (m.chance(0.1)) m.scene.options.rest_speed = u.speed() * m.spread(1e-6, 1e-1);
-  if (m.chance(0.2)) m.motions(m.scene.world, m.scene.options.duration, u.speed());
+  if (m.chance(0.2)) m.motions(m.scene.world, m.scene.initial, m.scene.options.duration, u.speed());
   regions(m, u);
   if (tied) strings(m, u);
 

@@ -161,8 +161,8 @@ class Run {
     const double relative =
         relative_rounding * (1 + sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
     const double size =
-        size_ + std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.passed.removed.energy);
-    if (!(std::abs(gain + tally.energy_lost + tally.method_error + tally.passed.removed.energy - tally.work) <=
+        size_ + std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.changes.removed.energy);
+    if (!(std::abs(gain + tally.energy_lost + tally.method_error + tally.changes.removed.energy - tally.work) <=
           relative * size))
       fail(fmt::format("energy books: gains {} J, lost {} J, work {} J, of {} J", gain, tally.energy_lost, tally.work,
                        size));

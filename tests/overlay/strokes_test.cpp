@@ -28,9 +28,9 @@ PathPiece piece(double from, const Vec3& x, const Vec3& v, const Vec3& a) {
 
 vector<Stroke> trails_of(const Scene& scene, const History& history, const State& state) {
   const BodyColors colors(scene);
-  const DrawingMaker maker(scene, history, size);
+  DrawingMaker maker(scene, history, size);
   vector<Stroke> strokes;
-  add_trails({scene, state, history, colors, Eye(camera_of(scene), size)}, strokes);
+  add_trails({scene, scene.world, state, history, colors, Eye(camera_of(scene), size)}, strokes);
   return strokes;
 }
 
@@ -259,7 +259,7 @@ TEST(Spring, BetweenBodiesEndsAtBoth) {
 TEST(Spring, HasTheSameTurnsHoweverItIsStretched) {
   const Scene scene = load_text(ball_scene("forces: [{spring: {anchor: [0, 2, 0], stiffness: 40, rest_length: 1}}]\n"));
   const History history(scene, picture_needs(scene));
-  const DrawingMaker maker(scene, history, size);
+  DrawingMaker maker(scene, history, size);
 
   const auto turns = [&](const Vec3& x) {
     State state = scene.initial;

@@ -29,7 +29,7 @@ class EverySceneRestored : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRestored, GoesOnWithTheSameBits) {
   SLOW_WITH_SANITIZERS("balls_in_a_box", "brick_wall", "funnel", "pile_at_rest", "piston", "binary_stars", "hourglass",
-                       "lattice");
+                       "lattice", "pour_into_bowl");
   const Scene scene = scene_named(GetParam());
   std::mt19937_64 random(1);
   // They take long.

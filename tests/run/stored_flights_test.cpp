@@ -87,7 +87,7 @@ void expect_same_pieces(const StoredRun& run) {
 class SceneInFlights : public ::testing::TestWithParam<string> {};
 
 TEST_P(SceneInFlights, HasItsPathsToTheLastBit) {
-  SLOW_WITH_SANITIZERS("binary_stars", "hourglass", "lattice");
+  SLOW_WITH_SANITIZERS("binary_stars", "hourglass", "lattice", "pour_into_bowl");
   StoredRun run;
   store_scene(run, GetParam());
   expect_same_pieces(run);

@@ -58,7 +58,7 @@ TEST(ForceErrors, UntilComesAfterFrom) {
   EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: 2, until: 2}\n")),
             (Parts{{"8:42 2", "`until` is 2 but `from` is 2", "expected from < until"}}));
   EXPECT_EQ(in_parts(errors_of(things + "forces:\n  - {uniform: [1, 0, 0], from: -1}\n")),
-            (Parts{{"8:32 -1", "`from` is -1", "expected a number of at least 0 in s"}}));
+            (Parts{{"8:32 -1", "`from` is -1", "expected a number of at least 0 in s, or a map of keys"}}));
 }
 
 TEST(ForceErrors, OneKindEach) {

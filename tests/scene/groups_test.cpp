@@ -1,9 +1,9 @@
 // Balls made by rule, and the random numbers they are made with.
 #include <fmt/format.h>
 
+#include "numerics/random.h"
 #include "physics/world.h"
 #include "scene/marked_errors.h"
-#include "numerics/random.h"
 #include "scene/scene.h"
 #include "std.h"
 

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "physics/world.h"
 #include "numerics/random.h"
+#include "physics/world.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "slow_with_sanitizers.h"

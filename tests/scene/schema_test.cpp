@@ -89,7 +89,9 @@ const vector<Beyond> beyond_schemas = {
     {"no number is named", "which names there are"},
     {"there is no `", "which members there are"},
     {"`repeat` in `defaults`", "defaults have the definition of their things"},
-    {"are fixed things, which never meet", "what a name stands for"},
+    {", which never meet", "what a name stands for"},
+    {"but an event happens once", "two keys against one another"},
+    {"after the event but `from` is", "two numbers against one another"},
     {"does not meet itself", "two names against one another"},
     {"is a fixed thing: no force acts on it", "what a name stands for"},
     {"is a fixed thing: it has no trail", "what a name stands for"},
@@ -176,7 +178,9 @@ TEST(Schema, RefusesWhatTheLoaderRefusesAndNothingElse) {
     for (const Field& field : kind.fields) all.insert(fmt::format("{}.{}", kind.name, field.key));
   }
 
-  EXPECT_EQ(visited, all) << "right_scenes() lacks a key of the table";
+  vector<string> lacking;
+  ranges::set_difference(all, visited, std::back_inserter(lacking));
+  EXPECT_EQ(lacking, vector<string>()) << "right_scenes() lacks a key of the table";
 
   for (const Variation& variation : variations) validator.add_json(variation.text);
   std::future<vector<string>> validating = std::async(std::launch::async, [&] { return validator.run(); });

@@ -117,7 +117,9 @@ TEST(Start, CountsWindowsFromItsOwnTimeAndSaysSo) {
 TEST(StartErrors, OfBodiesThatAreGone) {
   EXPECT_EQ(in_parts(errors_of(with_balls("balls: {red: {position: [0, 5, 0]}, blue: {position: [0, 7, 0]}}\n"),
                                with_run({"red", "blue"}, {1}))),
-            (Parts{{"4:1 start", "at 2 s of the run `blue` is out of the world: merged into another body, removed by a region, or yet to appear",
+            (Parts{{"4:1 start",
+                    "at 2 s of the run `blue` is out of the world: merged into another body, removed by a region, or "
+                    "yet to appear",
                     "expected a scene without such bodies, or another `at`"}}));
 }
 

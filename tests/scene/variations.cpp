@@ -151,6 +151,9 @@ strings:
   line: {from: [0, 4, 0], to: text, length: 9, restitution: 0.5, visible: false}
   rope: {from: [0, 4, 0], to: text}
   nets: {repeat: 2, from: ['= i', 6, 0], to: 'row.{i}'}
+  thread: {from: [2, 9, 0], to: fast, until: {collision: [text, group], after: 0.5}}
+  yarn: {from: [2, 9, 0], to: fast, until: 0.5}
+  hair: {from: [2, 9, 0], to: fast, until: {collision: fast}}
 simulate: {duration: 1}
 )",
     R"(
@@ -184,10 +187,11 @@ bodies:
   bag: {fit: sphere, mesh: box.stl, position: [6, 3, 0]}
   ball: {radius: 0.5, position: [-3, 3, 0]}
 obstacles:
-  post: {cylinder: {radius: 0.1, height: 1}, position: [0, -3, 0], motion: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}
+  post: {cylinder: {radius: 0.1, height: 1}, position: [0, -3, 0], motion: {windows: [{from: {region: near, after: 0.5}, until: {region: near, after: 1}, velocity: [0, 1, 0]}]}}
   edge: {box: [1, 1, 1], position: [3, -3, 0], visible: false, restitution: 0.5, motion: {sine: {amplitude: [0, 0.1, 0], period: 1, phase: 30}}}
   rock: {fit: box, mesh: box.stl, position: [6, -3, 0], color: tan}
   globe: {radius: 0.5, position: [-3, -3, 0], motion: {circle: {center: [-3, -4, 0], axis: [0, 0, 1], period: 2}}}
+regions: {near: {radius: 1, position: [0, 0, 0]}}
 simulate: {duration: 1}
 )",
     R"(
@@ -225,6 +229,7 @@ scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 forces:
   - {uniform: [1, 0, 0], on: [red], from: 0.5, until: 0.75}
+  - {uniform: [1, 0, 0], on: [red], from: {collision: [red], after: 0.5}, until: {collision: [red, fence], after: 2}}
   - {acceleration: [1, 0, 0]}
   - {drag: {linear: 1, quadratic: 2, wind: [1, 0, 0]}}
   - {spring: {anchor: [0, 2, 0], stiffness: 1, rest_length: 1, damping: 1}, visible: false}

@@ -33,7 +33,7 @@ TEST_P(EveryScene, RunsToItsEndAndKeepsItsBooks) {
   // Energy at the end = at the start - that of removed bodies + that of those that came later + work - losses in
   // impacts - losses of the method of lasting contact. What there was, what there is, and what has passed.
   const World& world = run.scene.world;
-  const double before = run.energy_start - run.tally.passed.removed.energy + run.tally.passed.appeared.energy;
+  const double before = run.energy_start - run.tally.changes.removed.energy + run.tally.changes.appeared.energy;
   const double after = kinetic_energy(world, run.end) + potential_energy(world, run.end);
   const double passed = std::abs(before) + std::abs(run.tally.work) + std::abs(run.tally.energy_lost);
   if (run.scene.simulate.engine == Engine::book && !world.gravity.isZero(0)) return;  // Euler's steps keep no energy

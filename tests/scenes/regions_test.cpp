@@ -36,8 +36,8 @@ TEST(Effusion, LosesAsManyBallsAsKineticTheorySays) {
   for (const RegionCrossing& crossing : run.crossings) early += crossing.time < 3;
   // The mean, and four times the spread by chance.
   EXPECT_NEAR(early, stated(file, "at first. "), 4 * stated(file, "become fewer, and "));
-  const double left = 300.0 - static_cast<double>(run.tally.passed.removed.bodies);
-  EXPECT_GT(run.tally.passed.removed.energy / (300 - left), 1.5 * 1.1);  // J; on average 3/2 of m sigma^2 at first
+  const double left = 300.0 - static_cast<double>(run.tally.changes.removed.bodies);
+  EXPECT_GT(run.tally.changes.removed.energy / (300 - left), 1.5 * 1.1);  // J; on average 3/2 of m sigma^2 at first
 }
 
 TEST(Pockets, EndTheRunWithTheThirdBall) {
@@ -51,7 +51,7 @@ TEST(Pockets, EndTheRunWithTheThirdBall) {
   const char* const names[] = {"b4", "b6", "b1"};
   for (size_t k = 0; k < 3; ++k) EXPECT_EQ(run.scene.roster.name(run.crossings[k].body), names[k]);
   EXPECT_NEAR(run.tally.first_collision, stated(file, "the break at t = "), 5e-5);
-  EXPECT_EQ(run.tally.passed.removed.bodies, 3u);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 3u);
 }
 
 }  // namespace

@@ -85,6 +85,45 @@ TEST(PourIntoBowl, FillsTheBowl) {
   EXPECT_EQ(measured("pour_into_bowl", "in_the_bowl"), 160);
 }
 
+TEST(WreckingBall, IsCutFromItsStringAtTheLowestPoint) {
+  const double u = sqrt(g_n * 4), cut = sqrt(4 / g_n) * std::comp_ellint_1(0.5);
+  const double hit = cut + (3.5 - 0.4 - 0.25) / u;
+  EXPECT_NEAR(stated("wrecking_ball", "u = sqrt(g L) ="), u, 1e-13);
+  EXPECT_NEAR(stated("wrecking_ball", "t = sqrt(L / g) K ="), cut, 1e-13);
+  EXPECT_NEAR(stated("wrecking_ball", "/ u later, at t ="), hit, 1e-13);
+  const Played run = play("wrecking_ball");
+  EXPECT_NEAR(run.tally.changes.fired[0], cut, 1e-12);
+  EXPECT_NEAR(run.collisions.front().time, hit, 1e-12);
+  // The ball has gone on, and is not at the end of its string.
+  EXPECT_GT((run.end.position[0] - Vec3(0, 5.5, 0)).norm(), 6);
+}
+
+TEST(OpeningGate, LetsNoMarblePassBeforeTheSwitchIsHit) {
+  const double hit = sqrt(2 * 1.5 / g_n);
+  EXPECT_NEAR(stated("opening_gate", "t = sqrt(2 (1.5 m) / g) ="), hit, 1e-14);
+  EXPECT_NEAR(measured("opening_gate", "switched_s"), hit, 1e-14);
+  EXPECT_EQ(measured("opening_gate", "through"), 60);
+  EXPECT_GT(measured("opening_gate", "first_through_s"), hit + 0.2);
+}
+
+TEST(Pinball, IsPlayedByItsFlippers) {
+  const Played run = play("pinball");
+  EXPECT_NEAR(run.tally.changes.fired[1], 1.273, 1e-3);
+  EXPECT_NEAR(run.tally.changes.fired[0], 3.084, 1e-3);
+  // Each strikes the ball once within the time of its stroke.
+  for (const uint32_t side : {0u, 1u}) {
+    const string flipper = side == 0 ? "left_flipper" : "right_flipper";
+    const auto strikes = ranges::count_if(run.collisions, [&](const Collision& met) {
+      const double since = met.time - run.tally.changes.fired[side];
+      return run.scene.roster.name(met.b) == flipper && since > 0 && since < 0.05;
+    });
+    EXPECT_EQ(strikes, 1) << flipper;
+  }
+  ASSERT_TRUE(run.tally.end);
+  EXPECT_NEAR(run.tally.end->time, stated("pinball", "is lost at"), 0.01);
+  EXPECT_NEAR(run.tally.work, stated("pinball", "which they have given"), 0.05);
+}
+
 TEST(Planets, FollowKeplersLaws) {
   const double a = (12 + 0.35) / 2, gm = 4 * square(std::numbers::pi), period = pow(a, 1.5);
   EXPECT_NEAR(period, stated("planets", "the period is a^(3/2) ="), 1e-13);

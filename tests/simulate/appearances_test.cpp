@@ -42,7 +42,7 @@ double unaccounted(const Problem& problem, const Outcome& run) {
     if (!problem.world.comes_later(i))
       potential -= problem.world.mass[i] * problem.world.gravity.dot(start.position[i]);
   return energy(problem, run.end) - before - potential - run.tally.work + run.tally.energy_lost +
-         run.tally.passed.removed.energy - run.tally.passed.appeared.energy;
+         run.tally.changes.removed.energy - run.tally.changes.appeared.energy;
 }
 
 TEST(Appearances, ABodyMovesFromThenOnAsFromTheStart) {
@@ -58,9 +58,9 @@ TEST(Appearances, ABodyMovesFromThenOnAsFromTheStart) {
   EXPECT_LT((run.end.position[0] - Vec3(0.75, 5 + 2 * 0.75 - 5 * 0.75 * 0.75, 0)).norm(), 1e-14);
 
   // Its energy is booked as it comes.
-  EXPECT_EQ(run.tally.passed.appeared.bodies, 1u);
-  EXPECT_DOUBLE_EQ(run.tally.passed.appeared.energy, 0.5 * 2 * 5 + 2 * 10 * 5);
-  EXPECT_EQ(run.tally.passed.appeared.momentum, Vec3(2, 4, 0));
+  EXPECT_EQ(run.tally.changes.appeared.bodies, 1u);
+  EXPECT_DOUBLE_EQ(run.tally.changes.appeared.energy, 0.5 * 2 * 5 + 2 * 10 * 5);
+  EXPECT_EQ(run.tally.changes.appeared.momentum, Vec3(2, 4, 0));
   EXPECT_LT(std::abs(unaccounted(problem, run)), 1e-12);
 }
 
@@ -112,7 +112,7 @@ TEST(Appearances, ABlockerThatIsStruckLeavesAtItsNewTime) {
   problem.initial.velocity[2] = Vec3::Zero();
   Outcome run;
   EXPECT_TRUE(std::isnan(appearances(problem, &run)[0]));
-  EXPECT_EQ(run.tally.passed.appeared.bodies, 0u);
+  EXPECT_EQ(run.tally.changes.appeared.bodies, 0u);
 }
 
 TEST(Appearances, AMovingThingLeavesThePlace) {
@@ -174,7 +174,7 @@ TEST(Appearances, BallsPourOneAfterTheOtherWithoutOverlap) {
     }
   }
   Outcome run{{}, {}, simulator->state(), simulator->tally()};
-  EXPECT_EQ(run.tally.passed.appeared.bodies, 100u);
+  EXPECT_EQ(run.tally.changes.appeared.bodies, 100u);
   EXPECT_LT(std::abs(unaccounted(problem, run) + run.tally.method_error), 1e-9);
 }
 
@@ -254,7 +254,7 @@ TEST(Appearances, ASnapshotGoesOnWithTheSameBits) {
     for (Simulator* each : {first.get(), second.get()})
       while (each->time() < 1.5) each->advance_to(1.5);
     EXPECT_EQ(first->state().position, second->state().position) << at;
-    EXPECT_EQ(first->tally().passed.appeared.energy, second->tally().passed.appeared.energy) << at;
+    EXPECT_EQ(first->tally().changes.appeared.energy, second->tally().changes.appeared.energy) << at;
   }
 }
 

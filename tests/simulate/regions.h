@@ -54,7 +54,7 @@ inline WorldRegion stopping(WorldRegion region) {
 
 /// J, what the balance leaves.
 inline double left(const Problem& problem, const WithRegions& run) {
-  return residual(problem, run) + run.tally.passed.removed.energy;
+  return residual(problem, run) + run.tally.changes.removed.energy;
 }
 
 /// A gas of balls in a box, with regions of every shape.

@@ -17,9 +17,9 @@ TEST(Removal, BooksTheEnergyAndTheMomentumOfTheBody) {
   problem.world.regions = {removing(region_at({1.5, -1.5, 1.5}, Volume::sphere(0.9)))};
 
   const WithRegions run = run_with(problem);
-  ASSERT_GT(run.tally.passed.removed.bodies, 8u);
-  ASSERT_LT(run.tally.passed.removed.bodies, 30u);
-  EXPECT_EQ(run.crossings.size(), run.tally.passed.removed.bodies);
+  ASSERT_GT(run.tally.changes.removed.bodies, 8u);
+  ASSERT_LT(run.tally.changes.removed.bodies, 30u);
+  EXPECT_EQ(run.crossings.size(), run.tally.changes.removed.bodies);
   EXPECT_LT(std::abs(left(problem, run)), 1e-12);  // measured: 1e-13
 
   for (const RegionCrossing& crossing : run.crossings) {
@@ -51,14 +51,14 @@ TEST(Removal, LeavesNoCrossingOfThatInstantOut) {
   const vector<RegionCrossing> all = {{0, 4, 0, true}, {1, 0, 0, true}, {1, 1, 0, true},
                                       {1, 2, 0, true}, {1, 3, 0, true}, {1, 4, 0, false}};
   EXPECT_EQ(run.crossings, all);
-  EXPECT_EQ(run.tally.passed.removed.bodies, 1u);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 1u);
   EXPECT_FALSE(run.tally.end);
 
   // One of them ends the run.
   problem.world.regions[3] = stopping(beyond);
   run = run_with(problem);
   EXPECT_EQ(run.crossings, all);
-  EXPECT_EQ(run.tally.passed.removed.bodies, 1u);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 1u);
   ASSERT_TRUE(run.tally.end);
   EXPECT_EQ(run.tally.end->region, 3u);
 }
@@ -69,9 +69,9 @@ TEST(Removal, KeepsTheMomentumOfAFreeGas) {
   for (Entity i = 0; i < 20; ++i) problem.initial.velocity[i] -= problem.initial.position[i];
   problem.world.regions = {removing(region_at({0, 0, 0}, Volume::sphere(1.4)))};
   const WithRegions run = run_with(problem);
-  ASSERT_GT(run.tally.passed.removed.bodies, 3u);
+  ASSERT_GT(run.tally.changes.removed.bodies, 3u);
   const Vec3 drift =
-      momentum(problem.world, run.end) + run.tally.passed.removed.momentum - momentum(problem.world, problem.initial);
+      momentum(problem.world, run.end) + run.tally.changes.removed.momentum - momentum(problem.world, problem.initial);
   EXPECT_LT(drift.norm(), 1e-13);
 }
 
@@ -90,7 +90,7 @@ TEST(Removal, OfTheLowestBallLetsThePileFall) {
   EXPECT_NEAR(run.crossings[1].time, sqrt(0.9 * 2 / 10), 1e-13);
   // 0.1 m above the ball that it rested on, it falls as that one did.
   EXPECT_NEAR(run.crossings[2].time, sqrt(1.9 * 2 / 10), 1e-13);
-  EXPECT_EQ(run.tally.passed.removed.bodies, 3u);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 3u);
   EXPECT_LT(std::abs(left(problem, run)), 1e-12);
   EXPECT_EQ(run.tally.resting, 0u);
 }
@@ -115,7 +115,7 @@ TEST(Removal, OfASleepersSupportWakesTheSleeper) {
   problem.options.duration = 2;
 
   const WithRegions run = run_with(problem);
-  EXPECT_EQ(run.tally.passed.removed.bodies, 1u);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 1u);
   EXPECT_LT(run.end.position[2].y(), 0.6);  // it lies on the floor
   EXPECT_LT(std::abs(left(problem, run)), 1e-11);
 }
@@ -132,7 +132,7 @@ TEST(Removal, OfAJointBodyTakesAllItsParts) {
   // They meet at t = 1, at x = -0.5, and go on at half the speed.
   EXPECT_NEAR(run.crossings[0].time, 4, 1e-14);
   EXPECT_EQ(run.end.part_of, (vector<Entity>{no_entity, no_entity}));
-  EXPECT_NEAR(run.tally.passed.removed.energy, 0.25, 1e-15);
+  EXPECT_NEAR(run.tally.changes.removed.energy, 0.25, 1e-15);
   EXPECT_EQ(kinetic_energy(problem.world, run.end), 0);
 }
 
@@ -142,8 +142,8 @@ TEST(Removal, OnABentPathBooksTheEnergyThere) {
   problem.world.forces.push_back({Attractor{Vec3::Zero(), 1, 0}});
   problem.world.regions = {removing(side_at({0, 0, 0}, {-1, 0, 0}))};
   const WithRegions run = run_with(problem);
-  EXPECT_EQ(run.tally.passed.removed.bodies, 1u);
-  EXPECT_NEAR(run.tally.passed.removed.energy, 2 * (0.32 - 1), 1e-13);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 1u);
+  EXPECT_NEAR(run.tally.changes.removed.energy, 2 * (0.32 - 1), 1e-13);
   EXPECT_LT(std::abs(left(problem, run)), 1e-13);
 }
 
@@ -163,7 +163,7 @@ TEST(Removal, OfASleeperInMidRunLetsTheOthersFall) {
   EXPECT_EQ(run.crossings[0].body, 0u);
   EXPECT_GT(run.crossings[0].time, 1);
 
-  EXPECT_LT(std::abs(unbooked(problem, run) + run.tally.passed.removed.energy), 1e-11);  // measured: 2e-12
+  EXPECT_LT(std::abs(unbooked(problem, run) + run.tally.changes.removed.energy), 1e-11);  // measured: 2e-12
   EXPECT_LT(run.end.position[2].y(), 2.4);
   EXPECT_LT(run.tally.max_overlap, 1e-11);
 }
@@ -184,10 +184,10 @@ TEST(Removal, InAPileKeepsTheBooks) {
   problem.options.stop_at_rest = true;
 
   const WithRegions run = run_with(problem);
-  EXPECT_GT(run.tally.passed.removed.bodies, 4u);
-  EXPECT_LT(std::abs(unbooked(problem, run) + run.tally.passed.removed.energy), 1e-9);
+  EXPECT_GT(run.tally.changes.removed.bodies, 4u);
+  EXPECT_LT(std::abs(unbooked(problem, run) + run.tally.changes.removed.energy), 1e-9);
   EXPECT_LT(run.tally.max_overlap, 1e-11);
-  EXPECT_LE(run.tally.resting, 60 - run.tally.passed.removed.bodies);
+  EXPECT_LE(run.tally.resting, 60 - run.tally.changes.removed.bodies);
 }
 
 TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
@@ -211,7 +211,7 @@ TEST(Removal, ThroughAHoleIsTheEffusionOfAnIdealGas) {
   const WithRegions run = run_with(problem);
 
   const double mean = sqrt(8 / std::numbers::pi), expected = n * mean * 0.64 / (4 * 8) * 0.2;
-  EXPECT_NEAR(static_cast<double>(run.tally.passed.removed.bodies), expected, 4 * sqrt(expected));  // 128 +- 45
+  EXPECT_NEAR(static_cast<double>(run.tally.changes.removed.bodies), expected, 4 * sqrt(expected));  // 128 +- 45
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ class BitHash {
     add(shape, half);
   }
   void one(const State& state) {
-    const auto& [time, position, velocity, mass, radius, volume, part_of] = state;
-    add(time, position, velocity, mass, radius, volume, part_of);
+    const auto& [time, position, velocity, mass, radius, volume, part_of, fired] = state;
+    add(time, position, velocity, mass, radius, volume, part_of, fired);
   }
   void one(const Collision& collision) {
     const auto& [time, kind, a, b, position, normal, approach, separation, e, impulse, lost] = collision;
@@ -82,9 +82,10 @@ class BitHash {
 
   void one(const Tally& tally) {
     const auto& [body_body, body_fixed, merges, tautened, collapses, first, last, lost, method_error, work, force_work,
-                 doubts, overlap, fastest, resting, stepped, taken_up, shared, passed, end] = tally;
+                 doubts, overlap, fastest, resting, stepped, taken_up, shared, changes, end] = tally;
     add(body_body, body_fixed, merges, tautened, collapses, first, last, lost, method_error, work, force_work);
-    add(doubts, overlap, fastest, resting, stepped, taken_up, shared, passed.removed, passed.appeared, end.has_value());
+    add(doubts, overlap, fastest, resting, stepped, taken_up, shared, changes.removed, changes.appeared, changes.fired);
+    add(end.has_value());
     if (!end) return;
     const auto& [time, reason, region] = *end;
     add(time, reason, region);

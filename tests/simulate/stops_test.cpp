@@ -72,7 +72,7 @@ TEST(Stops, AfterACollisionLetCrossingsOfThatInstantHappen) {
   ASSERT_TRUE(run.tally.end);
   EXPECT_EQ(run.tally.end->time, 2);
   EXPECT_EQ(run.crossings, (vector<RegionCrossing>{{2, 0, 2, true}}));
-  EXPECT_EQ(run.tally.passed.removed.bodies, 1u);
+  EXPECT_EQ(run.tally.changes.removed.bodies, 1u);
 }
 
 TEST(Stops, CountCollisionsOfOneInstantTogether) {

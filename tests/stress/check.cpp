@@ -2,7 +2,7 @@
 // by independent computations in long double.
 #include "stress/check.h"
 
-#include "physics/world.h"
+#include "physics/world_now.h"
 #include "std.h"
 #include "stress/digits.h"
 #include "stress/gaps.h"
@@ -58,7 +58,7 @@ double coefficient(const World& world, Entity a, Entity b) {
 class Check {
  public:
   Check(const RandomScene& scene, double patience, Verdict& verdict)
-      : scene_(scene), world_(scene.world), patience_(patience), verdict_(verdict) {}
+      : scene_(scene), known_(scene), world_(known_.world), patience_(patience), verdict_(verdict) {}
 
   void run() {
     first_ = watch(scene_, {}, patience_);
@@ -70,13 +70,15 @@ class Check {
     verdict_.crowds = first_.tally.stepped_contact > 0;
     if (!first_.error.empty()) return stop();
 
-    times_ = sample_times(scene_, first_.records);
+    set_off(known_.world, first_.tally.changes.fired);
+
+    times_ = sample_times(known_, first_.records);
     seen_ = watch(scene_, times_, 10 * patience_);
     same("with more outputs", seen_);
     if (!seen_.error.empty() || seen_.seen.size() != times_.size()) return;
     if (!finite()) return;
 
-    paths_ = make_unique<Paths>(scene_, times_, seen_, first_.records, in_contact());
+    paths_ = make_unique<Paths>(known_, times_, seen_, first_.records, in_contact());
     for (string& overlap : paths_->overlaps()) fail(std::move(overlap));
 
     energy();
@@ -314,6 +316,7 @@ class Check {
   }
 
   const RandomScene& scene_;
+  RandomScene known_;  // with the times that events have set
   const World& world_;
   const double patience_;  // s of CPU time, for a run
   Verdict& verdict_;

@@ -316,7 +316,8 @@ RandomScene with_motions(RandomScene scene) {
   RandomScene unused;
   Maker maker(scene.seed, unused);
   const double size = scene.world.radius.empty() ? 1 : scene.world.radius[0];
-  maker.motions(scene.world, scene.options.duration, size * maker.any({0.1, 1, 10}) / scene.options.duration);
+  maker.motions(scene.world, scene.initial, scene.options.duration,
+                size * maker.any({0.1, 1, 10}) / scene.options.duration);
   scene.may_stop = true;  // they may leave a body no room
   return scene;
 }

@@ -165,7 +165,7 @@ void Maker::rules() {
   }
 }
 
-void Maker::motions(World& world, double duration, double speed) {
+void Maker::motions(World& world, const State& initial, double duration, double speed) {
   for (Entity e = world.body_count(); e < world.body_count() + world.fixed_count(); ++e) {
     if (!chance(0.5)) continue;
     vector<MotionWindow> windows;
@@ -179,8 +179,38 @@ void Maker::motions(World& world, double duration, double speed) {
     }
 
     world.motions.resize(world.fixed_count());
-    world.motions[e - world.body_count()] = motion_in_windows(windows);
+    SurfaceMotion& motion = world.motions[e - world.body_count()];
+    if (chance(0.6) || world.body_count() == 0) {
+      motion = motion_in_windows(windows);
+      continue;
+    }
+
+    // Events set some of their ends.
+    const auto wait = [&](size_t w, bool ends, uint32_t trigger) {
+      (ends ? windows[w].until : windows[w].from) = not_yet;
+      const double after = chance(0.5) ? 0 : duration * uniform(0, 0.3);
+      world.triggers.ends.push_back(
+          {TriggeredEnd::Of::motion, e - world.body_count(), uint32_t(w), ends, trigger, after});
+    };
+    for (size_t w = 0; w < windows.size(); ++w) {
+      if (chance(0.6)) wait(w, false, event(world, initial));
+      if (chance(0.3)) wait(w, true, event(world, initial));
+    }
+    motion = motion_by_events(windows);
   }
+}
+
+/// The first collision of a body, or its first entry into a half-space near its start.
+uint32_t Maker::event(World& world, const State& initial) {
+  const auto body = static_cast<Entity>(whole(0, static_cast<int>(world.body_count()) - 1));
+  Trigger trigger{.a = {body, 1}, .b = {0, no_entity}};
+  if (chance(0.3)) {
+    const Vec3 near = initial.position[body] + world.radius[body] * uniform(0, 4) * direction();
+    world.regions.push_back({.position = near, .normal = direction(), .on = {body}});
+    trigger = {.regions = EntityRange{uint32_t(world.regions.size() - 1), 1}};
+  }
+  world.triggers.all.push_back(trigger);
+  return uint32_t(world.triggers.all.size() - 1);
 }
 
 void Maker::forces(double duration, double acceleration) {

@@ -42,11 +42,14 @@ class Maker {
   double restitution();  // 0 … 1, often one for all
   void rules();          // combination, pairs, coefficients of fixed things
   void forces(double duration, double acceleration);
-  void motions(World& world, double duration, double speed);  // of fixed things, up to this speed
+  /// Of fixed things, up to this speed. Events set some of their times.
+  void motions(World& world, const State& initial, double duration, double speed);
 
   RandomScene& scene;
 
  private:
+  uint32_t event(World& world, const State& initial);
+
   Draws random_;
 };
 

@@ -31,6 +31,7 @@ void each_vector(World& world, State& state, const F& f) {
   for (String& s : world.strings) f(s.anchor);
   for (SurfaceMotion& motion : world.motions) {
     for (MotionLeg& leg : motion.legs) f(leg.velocity), f(leg.start), f(leg.start_low);
+    for (MotionWindow& window : motion.windows) f(window.velocity);
     f(motion.gain), f(motion.gain_low);
     if (motion.swing) f(motion.swing->middle), f(motion.swing->sine), f(motion.swing->cosine);
   }
@@ -69,10 +70,15 @@ struct Units {
 
 inline constexpr Units all_units[] = {{20, 0, 0}, {0, -12, 0}, {0, 0, 30}, {-30, 7, -24}};
 
+/// A time that waits for an event has no unit.
+inline void scale_time(double& time, double t) {
+  if (time != not_yet) time *= t;
+}
+
 inline void scale(vector<Force>& forces, double l, double t, double kg) {
   for (Force& f : forces) {
-    f.from *= t;
-    f.until *= t;
+    scale_time(f.from, t);
+    scale_time(f.until, t);
     if (auto* uniform = std::get_if<UniformForce>(&f.law)) uniform->force *= kg * l / (t * t);
     if (auto* even = std::get_if<UniformAcceleration>(&f.law)) even->value *= l / (t * t);
     if (auto* drag = std::get_if<Drag>(&f.law)) {
@@ -101,15 +107,15 @@ inline void scale_couplings(World& world, double l, double t, double kg) {
     spring.stiffness *= kg / (t * t);
     spring.rest_length *= l;
     spring.damping *= kg / t;
-    spring.from *= t;
-    spring.until *= t;
+    scale_time(spring.from, t);
+    scale_time(spring.until, t);
   }
 
   for (Gravitation& law : world.gravitations) {
     law.constant *= l * l * l / (kg * t * t);
     law.softening *= l;
-    law.from *= t;
-    law.until *= t;
+    scale_time(law.from, t);
+    scale_time(law.until, t);
   }
 }
 
@@ -130,15 +136,17 @@ inline void scale(World& world, State& state, double& duration, double& rest_spe
   for (Wall& w : world.walls) w.center *= l, w.half_width *= l, w.half_height *= l;
   for (Obstacle& o : world.obstacles) o.center *= l, o.volume.half *= l;
   for (WorldRegion& r : world.regions) r.position *= l, r.volume.half *= l;
-  for (String& s : world.strings) s.anchor *= l, s.length *= l;
+  for (String& s : world.strings) s.anchor *= l, s.length *= l, scale_time(s.until, t);
   for (SurfaceMotion& motion : world.motions) {
     for (MotionLeg& leg : motion.legs) leg.from *= t, leg.velocity *= l / t, leg.start *= l, leg.start_low *= l;
+    for (MotionWindow& w : motion.windows) scale_time(w.from, t), scale_time(w.until, t), w.velocity *= l / t;
     motion.every *= t, motion.gain *= l, motion.gain_low *= l;
     if (!motion.swing) continue;
     motion.swing->period *= t;
     for (Vec3* v : {&motion.swing->middle, &motion.swing->sine, &motion.swing->cosine}) *v *= l;
   }
 
+  for (TriggeredEnd& end : world.triggers.ends) end.after *= t;
   scale(world.forces, l, t, kg);
   scale_couplings(world, l, t, kg);
   duration *= t;
@@ -214,6 +222,35 @@ inline string unit_difference(const Observed& a, const Observed& b, const Units&
       [&](const Vec3& v) { return Vec3(v * (l / t)); });
 }
 
+/// The numbers of things of one scene in a world with another one, which has no planes. `first`: this one's come first.
+inline void shift(EntityRange& range, const World& own, const World& other, bool first) {
+  if (range.first + range.count > own.entity_count()) return;  // anything
+  const auto before = [&](size_t count) { return first ? 0 : Entity(count); };
+  if (own.is_body(range.first)) {
+    range.first += before(other.body_count());
+    return;
+  }
+
+  const Entity e = range.first;
+  range.first += other.body_count();
+  if (own.is_plane(e)) return;
+  range.first += own.is_wall(e) ? before(other.walls.size()) : Entity(other.walls.size());
+  if (own.is_wall(e)) return;
+  range.first += own.is_obstacle(e) ? before(other.obstacles.size()) : Entity(other.obstacles.size());
+  if (own.is_string(e)) range.first += before(other.strings.size());
+}
+
+/// The same for what waits for an event: forces are this scene's alone.
+inline void shift(TriggeredEnd& end, const World& own, const World& other, bool first) {
+  using Of = TriggeredEnd::Of;
+  if (!first && end.of == Of::string) end.index += uint32_t(other.strings.size());
+  if (!first && end.of == Of::body_spring) end.index += uint32_t(other.springs.size());
+  if (end.of != Of::motion) return;
+  EntityRange thing{own.body_count() + end.index, 1};
+  shift(thing, own, other, first);
+  end.index = thing.first - own.body_count() - other.body_count();
+}
+
 /// Both scenes in one world, the other one more than a kilometre away and without planes; they share gravity.
 /// `first`: this one's bodies come first.
 inline Motion together(const Motion& motion, Motion other, bool first) {
@@ -264,6 +301,16 @@ inline Motion together(const Motion& motion, Motion other, bool first) {
     s.body += one.world.body_count();
     if (s.other != no_entity) s.other += one.world.body_count();
   }
+
+  // The regions and events are this scene's alone.
+  for (WorldRegion& region : world.regions) {
+    if (region.on.empty())
+      for (Entity i = 0; i < motion.world.body_count(); ++i) region.on.push_back(i);
+    for (Entity& i : region.on) i += first ? 0 : other.world.body_count();
+  }
+  for (Trigger& trigger : world.triggers.all)
+    for (EntityRange* range : {&trigger.a, &trigger.b}) shift(*range, motion.world, other.world, first);
+  for (TriggeredEnd& end : world.triggers.ends) shift(end, motion.world, other.world, first);
 
   // Bodies that come later.
   world.appears.clear();

@@ -1,6 +1,6 @@
 #pragma once
-// The work that fixed things which move do on bodies in lasting contact with them, contact force times velocity, that of
-// forces between bodies along paths of islands, and the impulses of contact forces. All are booked as they accrue.
+// The work that fixed things which move do on bodies in lasting contact with them, contact force times velocity, that
+// of forces between bodies along paths of islands, and the impulses of contact forces. All are booked as they accrue.
 // Nothing is stored where nothing moves, no forces are between bodies, and no impulse is asked for.
 
 #include "numerics/lazy_array.h"

@@ -15,7 +15,7 @@ ExactBodies::ExactBodies(const World& given, const ExactOptions& given_options)
     : BodyPaths(given, given_options),
       same_radius(!options.merge && std::adjacent_find(given.radius.begin(), given.radius.end(), std::not_equal_to{}) ==
                                         given.radius.end()),
-      ties(given),
+      ties(world),
       neighbours(world),
       islands(given.body_count()),
       contact_work(world, moving.any() || couplings.any(), options.impulses, log),

@@ -35,6 +35,10 @@ struct ExactBodies : BodyPaths {
 
   // By body: its island holds it by forces between bodies alone, and nothing touches it.
   LazyArray<uint8_t> touches_nothing;
+  /// The first time (s) after `time` at which a force on body i starts or ends, or a string of it is cut.
+  double next_switch(Entity i, double time) const {
+    return min(BodyPaths::next_switch(i, time), ties.next_cut(i, time));
+  }
   /// Whether body i is in lasting contact with a thing.
   bool in_contact(Entity i) const { return in_lasting_contact(mode(i)) && touches_nothing[i] == 0; }
   /// Adds the accelerations by forces between these bodies, which have all that they connect, to those of forces on

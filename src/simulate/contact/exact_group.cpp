@@ -174,7 +174,8 @@ void ExactGroup::join_initial(Entity first) {
       if (std::abs(there.normal.dot(w)) > bodies_.drift_of(i, v, ve)) continue;
 
       // Where neither is in an island yet, they must be pressed together.
-      const double press = -(there.normal.dot(bodies_.pull_of(e) - f.acceleration(bodies_.now - f.start)) + bending(world, i, x, e, xe, there, w));
+      const double press = -(there.normal.dot(bodies_.pull_of(e) - f.acceleration(bodies_.now - f.start)) +
+                             bending(world, i, x, e, xe, there, w));
       if (!i_in && !e_in && !(press > 0)) continue;
 
       // Both then belong to one island.

@@ -19,6 +19,19 @@ Entity Ties::other(Entity string, Entity i) const {
   return s.body == i ? s.other : s.body;
 }
 
+double Ties::next_cut(Entity i, double time) const {
+  double next = infinity;
+  for (const Entity string : of(i))
+    if (const double until = world_.string(string).until; until > time) next = min(next, until);
+  return next;
+}
+
+void Ties::cut(Entity string) {
+  const String& s = world_.string(string);
+  std::erase(of_[s.body], string);
+  if (s.other != no_entity) std::erase(of_[s.other], string);
+}
+
 void Ties::untie(Entity i) {
   for (const Entity string : of(i))
     if (const Entity k = other(string, i); k != no_entity) std::erase(of_[k], string);

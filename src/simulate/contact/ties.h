@@ -19,6 +19,10 @@ class Ties {
   Entity other(Entity string, Entity i) const;
   /// Removes the strings of body i.
   void untie(Entity i);
+  /// The first time (s) after `time` at which a string of body i is cut; infinity: none is.
+  double next_cut(Entity i, double time) const;
+  /// Removes a string.
+  void cut(Entity string);
 
   void keep(auto& archive) { archive.sized(of_); }
 

@@ -41,8 +41,7 @@ bool CrowdMotion::advance(Entity i) {
     }
 
     Crowd& crowd = gather(island);
-    if (crowd.step.next_switch <= bodies_.now || bodies_.varying || bodies_.couplings.any())
-      renew_forces(crowd);
+    if (crowd.step.next_switch <= bodies_.now || bodies_.varying || bodies_.couplings.any()) renew_forces(crowd);
     // Nothing touches bodies that forces alone hold together.
     if (crowd.step.coupled.any() && all_of(crowd.idle, [](uint8_t steps) { return steps >= tol::idle_steps; })) {
       island.busy = false;

@@ -9,9 +9,9 @@
 
 #include "geometry/touch.h"
 #include "numerics/dense_motion.h"
-#include "simulate/contact/contact_impulses.h"
 #include "numerics/dormand_prince.h"
 #include "physics/coupled_forces.h"
+#include "simulate/contact/contact_impulses.h"
 #include "simulate/contact/contact_list.h"
 #include "solver/contact_problem.h"
 #include "std.h"

@@ -95,8 +95,8 @@ bool Appearances::has_room(Entity i, const Vec3& x) {
 Instant Appearances::exit_of(Entity e, Entity i, const Vec3& x) const {
   const bool body = bodies_.world.is_body(e);
   if (!body && !bodies_.world.moves(e)) return {never, 0};
-  const Instant end = min(body ? bodies_.flight_end(e) : bodies_.moving.next_switch(bodies_.now),
-                          Instant{bodies_.options.duration, 0});
+  const Instant end =
+      min(body ? bodies_.flight_end(e) : bodies_.moving.next_switch(bodies_.now), Instant{bodies_.options.duration, 0});
 
   // Each step ends before it may have left.
   Instant at = bodies_.now;

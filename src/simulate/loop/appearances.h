@@ -26,6 +26,11 @@ class Appearances {
     Entity body;
     Vec3 x, v;  // m, m/s
   };
+  /// Lets those that wait try again at once: things move in another way than when they last did.
+  void try_again() {
+    for (Blocked& one : blocked_) one.due = bodies_.now;
+  }
+
   /// Finds the bodies that are due at the present instant and have room, which are then among the neighbours. Each call
   /// returns one of them; none: there is no other.
   optional<Admitted> take();

@@ -7,7 +7,7 @@
 #include "geometry/touch.h"
 #include "physics/archive.h"
 #include "physics/restitution.h"
-#include "physics/world.h"
+#include "physics/world_now.h"
 #include "std.h"
 
 namespace carom {
@@ -19,6 +19,8 @@ constexpr size_t collisions_of_event = 8;
 constexpr uint32_t events_at_a_time = 65536;
 // A step of an island takes as long as so many impacts for each of its bodies.
 constexpr uint32_t events_of_a_step = 64;
+// A share of the duration: what an event at time 0 sets lies ahead by so much.
+constexpr double shortest_delay = 0x1p-100;
 // Number of bodies with data that fit into a processor's cache.
 constexpr Entity cached_bodies = 24576;
 
@@ -121,6 +123,7 @@ void ExactSimulator::start(const State& initial) {
 
   for (Entity i = 0; i < n; ++i) paths_.note_change(i);
   paths_.record_changes();
+  if (bodies_.log.has_noted()) set_off(bodies_.now);
 }
 
 /// Keeps body i, which comes later, out of the world, at x (m).
@@ -161,6 +164,8 @@ void ExactSimulator::advance_to(double time) {
           continue;
       }
       events += take_event(i);
+      if (bodies_.log.has_noted()) [[unlikely]]
+        set_off(bodies_.now);
 
       // After many events without a result, the caller may need to check the clock.
       if (events >= events_at_a_time && before_now() > time_) {
@@ -302,8 +307,40 @@ void ExactSimulator::take_switch(Entity i) {
   switch_forces(i);
 }
 
+/// Sets the times that wait for events that are sure at an instant, at present or later. They lie ahead of it, by
+/// rounding at least, so that what happens then is an event as any other. Events and steps that were predicted without
+/// them are found anew.
+void ExactSimulator::set_off(const Instant& at) {
+  const double next = at.lo < 0 ? at.hi : std::nextafter(at.hi, infinity);
+  const double time = max(next, shortest_delay * bodies_.options.duration);
+  while (bodies_.log.has_noted()) bodies_.merged.set_off(bodies_.log.take_noted(time), time);
+
+  bodies_.islands.for_each([&](const Island& island) {
+    for (const shared_ptr<Crowd>& crowd : island.crowds) crowd->step.next_switch = bodies_.now;
+    interrupt(island.members.front());
+  });
+  for (Entity i = 0; i < bodies_.world.body_count(); ++i)
+    if (is_in_world(bodies_.mode(i))) flights_.note_changed(i);
+  predict_changed();
+  appearances_.try_again();
+}
+
+/// Cuts the strings of body i that hold until now.
+void ExactSimulator::cut_strings(Entity i) {
+  const vector<Entity> strings(bodies_.ties.of(i).begin(), bodies_.ties.of(i).end());
+  for (const Entity string : strings) {
+    if (bodies_.world.string(string).until > bodies_.now.hi) continue;
+    const Entity other = bodies_.ties.other(string, i);
+    bodies_.ties.cut(string);
+    if (other == no_entity) continue;
+    flights_.end_step(other);
+    switch_forces(other);
+  }
+}
+
 /// Ends body i's flight, and begins the next under the present forces and on the present surfaces.
 void ExactSimulator::switch_forces(Entity i) {
+  if (bodies_.ties.any()) cut_strings(i);
   const Vec3 x = bodies_.position(i);
   const Vec3 v = bodies_.velocity(i);
   paths_.note_change(i);
@@ -393,6 +430,11 @@ bool ExactSimulator::happens_before(const Instant& next, bool at_it) {
 void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   const RegionCrossing& crossing = taken.crossing;
   const WorldRegion& region = bodies_.world.regions[crossing.region];
+  bodies_.log.note(crossing);
+  if (bodies_.log.has_noted()) {
+    if (bodies_.now < taken.at) bodies_.now = taken.at;
+    set_off(taken.sure);
+  }
   if (!crossing.enters || !(region.removes || region.stops)) return;
 
   if (region.removes) {
@@ -537,6 +579,8 @@ void ExactSimulator::restore(string_view bytes) {
   StateReader archive(bytes, bodies_.world);
   keep(archive);
   archive.finish();
+  for (uint32_t k = 0; k < tally().changes.fired.size(); ++k)
+    if (tally().changes.fired[k] < not_yet) bodies_.merged.set_off(k, tally().changes.fired[k]);
   answers_ = {};
 }
 
@@ -571,6 +615,7 @@ const State& ExactSimulator::state() {
     answers_.state.join_parts();
   }
 
+  answers_.state.fired = fired_by(tally().changes.fired, answers_.state.time);
   answers_.state_fresh = true;
   return answers_.state;
 }

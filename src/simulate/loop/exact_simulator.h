@@ -74,6 +74,8 @@ class ExactSimulator final : public Simulator {
   bool watches() const;
   bool happens_before(const Instant& next, bool at_it);
   void take_crossing(const Crossings::Taken& taken);
+  void set_off(const Instant& at);
+  void cut_strings(Entity i);
   void take_appearances(const Instant& at);
   void admit(const Appearances::Admitted& admitted);
   void end_by(const Crossings::Taken& taken);

@@ -53,9 +53,7 @@ struct Flight {
 
   /// The time (s) from t on for which displacement_from() is accurate. After the acceleration has decayed, a path is
   /// straight.
-  double span_of_fade(double t) const {
-    return curve != nullptr || is_straight() ? infinity : path().span(t);
-  }
+  double span_of_fade(double t) const { return curve != nullptr || is_straight() ? infinity : path().span(t); }
 
  private:
   Vec3 bent_position(double t) const;

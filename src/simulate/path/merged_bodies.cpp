@@ -5,13 +5,20 @@
 #include "geometry/contact_time.h"
 #include "numerics/cube_root.h"
 #include "physics/force.h"
-#include "physics/world.h"
+#include "physics/world_now.h"
 #include "std.h"
 
 namespace carom {
 
 MergedBodies::MergedBodies(const World& world, bool merge)
-    : given_(world), joint_(merge ? make_unique<World>(world) : nullptr) {}
+    : timed_(world.triggers.all.empty() ? nullptr : make_unique<World>(world)),
+      given_(timed_ ? *timed_ : world),
+      joint_(merge ? make_unique<World>(world) : nullptr) {}
+
+void MergedBodies::set_off(uint32_t trigger, double time) {
+  carom::set_off(*timed_, trigger, time);
+  if (joint_) carom::set_off(*joint_, trigger, time);
+}
 
 void MergedBodies::begin() {
   const Entity n = given_.body_count();

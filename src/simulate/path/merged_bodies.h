@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that have merged: the parts of each joint body, and the World with the joint masses and volumes. Forces act on
-// the parts. Bodies out of the world are marked too.
+// What changes of a World: bodies merge, and events set times. Of merged bodies there are the parts of each joint body,
+// and the World with the joint masses and volumes. Forces act on the parts. Bodies out of the world are marked too.
 
 #include "physics/world.h"
 #include "std.h"
@@ -15,10 +15,11 @@ struct AppliedAcceleration {
 
 class MergedBodies {
  public:
-  /// merge: whether bodies may merge. Only then `world` is copied. It must outlive this object.
+  /// merge: whether bodies may merge. Only then, or where events set times, `world` is copied. It must outlive this
+  /// object.
   MergedBodies(const World& world, bool merge);
 
-  const World& given() const { return given_; }                     // before any merge
+  const World& given() const { return given_; }                     // before any merge, with times that events have set
   const World& world() const { return joint_ ? *joint_ : given_; }  // the same object throughout
   bool any() const { return !whole_of_.empty(); }
   const vector<Entity>& whole_of() const {
@@ -48,6 +49,8 @@ class MergedBodies {
   void join(Entity whole, Entity part);
   /// Takes body i, with its parts, out of the world.
   void remove(Entity i);
+  /// Sets the times that wait for a trigger, which has happened at `time` (s).
+  void set_off(uint32_t trigger, double time);
   /// Lets one that is out of the world come into it.
   void admit(Entity i) { whole_of_[i] = i; }
 
@@ -59,6 +62,7 @@ class MergedBodies {
  private:
   void begin();
 
+  unique_ptr<World> timed_;  // none: no events set times
   const World& given_;
   unique_ptr<World> joint_;       // none: bodies do not merge
   vector<Entity> whole_of_;       // empty: nothing has merged

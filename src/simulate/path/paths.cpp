@@ -11,11 +11,12 @@ namespace carom {
 BodyPaths::BodyPaths(const World& given, const ExactOptions& given_options)
     : options(given_options),
       merged(given, options.merge),
-      couplings(given),
+      couplings(merged.given()),
       world(merged.world()),
-      moving(given),
+      moving(merged.given()),
       bounds(bounds_of(given)),
-      forced(!given.forces.empty() || couplings.any()),
+      forced(!given.forces.empty() || couplings.any() ||
+             any_of(given.strings, [](const String& string) { return string.until < infinity; })),
       varying(bending_force(given) != nullptr),
       by_method(options.integrator != Integrator::dop853 || !options.closed_forms),
       in_steps(varying || by_method),
@@ -26,7 +27,8 @@ BodyPaths::BodyPaths(const World& given, const ExactOptions& given_options)
       flights(given.body_count(), given.gravity),
       kick(given.body_count()),
       body(given.body_count()),
-      log(options.max_collisions, options.record_collisions, given.forces.size(), couplings.any()) {}
+      log(options.max_collisions, options.record_collisions, given.forces.size(), couplings.any(), given.triggers.all) {
+}
 
 Vec3 BodyPaths::velocity_without_kick(Entity i, const Instant& at) const {
   const double t = at - flights[i].start;

@@ -30,7 +30,7 @@ struct BodyPaths {
   const World& world;  // with the joint bodies' masses and volumes
   const MovingThings moving;
   const Bounds bounds;
-  const bool forced;   // there are forces beside gravity, or between bodies
+  const bool forced;   // there are forces beside gravity, or between bodies, or strings that are cut
   const bool varying;  // some force bends paths (force.h)
   // The integrator gives all paths that bend, also those with a closed form.
   const bool by_method;

@@ -44,13 +44,19 @@ Counts& counts_of(Shared& shared, uint64_t seed) {
   return shared.family[seed % family_names().size()];
 }
 
+/// In every second round through the families fixed things move.
+RandomScene scene_of(uint64_t seed) {
+  RandomScene scene = make_scene(seed);
+  return seed / family_names().size() % 2 == 0 ? scene : with_motions(std::move(scene));
+}
+
 [[noreturn]] void work(Shared& shared, size_t worker, uint64_t end) {
   for (uint64_t seed; (seed = shared.next++) < end;) {
     shared.current[worker] = seed;
     itimerval limit{{0, 0}, {hang, 0}};
     setitimer(ITIMER_VIRTUAL, &limit, nullptr);
 
-    const RandomScene scene = make_scene(seed);
+    const RandomScene scene = scene_of(seed);
     Verdict verdict = check(scene);
     for (string& violation : check_stepped(scene).violations) verdict.violations.push_back(std::move(violation));
 
