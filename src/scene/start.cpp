@@ -231,12 +231,12 @@ class Starter {
     if (former_.has_merged)
       say("start: bodies of the run had merged by then; masses and sizes are those of this scene");
     if (!former_.doubt.empty()) say("start: the run is doubtful: " + former_.doubt);
-    if (former_.state.time > 0 && has_windows())
-      say(fmt::format("start: windows of forces and motions count from the new time 0, which is {} s of the run",
+    if (former_.state.time > 0 && has_times())
+      say(fmt::format("start: times of forces, motions and strings count from the new time 0, which is {} s of the run",
                       time()));
   }
 
-  bool has_windows() const {
+  bool has_times() const {
     const auto has = [](const Node& node, std::initializer_list<string_view> keys) {
       return any_of(keys, [&](string_view key) { return node.find_key(key) != nullptr; });
     };
@@ -247,6 +247,9 @@ class Starter {
       if (const Node* things = root_.find(kind))
         for (const Node& thing : things->items)
           if (has(thing, {"motion"})) return true;
+    if (const Node* strings = root_.find("strings"))
+      for (const Node& string : strings->items)
+        if (has(string, {"until"})) return true;
     return false;
   }
 

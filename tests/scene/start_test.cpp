@@ -109,9 +109,9 @@ TEST(Start, LeavesNumbersInTheResolvedSceneWhichNeedsNoRun) {
 
 TEST(Start, CountsWindowsFromItsOwnTimeAndSaysSo) {
   const string text = with_balls("balls: {red: {position: [0, 5, 0]}}\nforces: [{uniform: [1, 0, 0], from: 0.5}]\n");
-  EXPECT_EQ(
-      load_text(text, with_run({"red"})).made_from.notes,
-      (vector<string>{"start: windows of forces and motions count from the new time 0, which is 2 s of the run"}));
+  EXPECT_EQ(load_text(text, with_run({"red"})).made_from.notes,
+            (vector<string>{
+                "start: times of forces, motions and strings count from the new time 0, which is 2 s of the run"}));
 }
 
 TEST(StartErrors, OfBodiesThatAreGone) {

@@ -317,6 +317,25 @@ TEST(Triggers, OnlyTheFirstOfItsKindCounts) {
   EXPECT_NEAR(run.end.velocity[1].y(), 1, 1e-14);
 }
 
+TEST(Triggers, ABodyThatIsRemovedEntersAllRegionsOfItsInstant) {
+  // Both regions begin at the same plane. Either may come first.
+  for (const uint32_t removes : {0u, 1u}) {
+    Eventful problem;
+    problem.ball({0, 0, 0}, {1, 0, 0}, 1, 0.1);
+    problem.ball({0, 5, 0}, Vec3::Zero(), 2, 0.1);
+    problem.force(UniformForce{{0, 0, 4}}, {1}, not_yet, infinity);
+    const uint32_t first = problem.beyond(2, 0);
+    const uint32_t second = problem.beyond(2, 0);
+    problem.wait(Of::force, 0, false, removes == 0 ? second : first);
+    problem.world.regions[removes].removes = true;
+
+    problem.options.duration = 4;
+    const Outcome run = run_exact(problem);
+    EXPECT_EQ(run.tally.changes.removed.bodies, 1u);
+    EXPECT_NEAR(run.end.velocity[1].z(), 4, 1e-13);
+  }
+}
+
 TEST(Triggers, APlaceIsFreeWhenAnEventHasTakenAwayWhatStoodThere) {
   Eventful problem;
   problem.ball({0, 0, 0}, Vec3::Zero(), 1, 0.5);

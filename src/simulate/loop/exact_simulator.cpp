@@ -431,14 +431,10 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   const RegionCrossing& crossing = taken.crossing;
   const WorldRegion& region = bodies_.world.regions[crossing.region];
   bodies_.log.note(crossing);
-  if (bodies_.log.has_noted()) {
-    if (bodies_.now < taken.at) bodies_.now = taken.at;
-    set_off(taken.sure);
-  }
-  if (!crossing.enters || !(region.removes || region.stops)) return;
 
-  if (region.removes) {
+  if (crossing.enters && region.removes) {
     while (const optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
+      bodies_.log.note(other->crossing);
       const WorldRegion& met = bodies_.world.regions[other->crossing.region];
       if (other->crossing.enters && met.stops) end_by(*other);
     }
@@ -454,7 +450,11 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
     guard_.count(StallGuard::Happened::other, bodies_.now.hi);
   }
 
-  if (region.stops) end_by(taken);
+  if (bodies_.log.has_noted()) {
+    if (bodies_.now < taken.at) bodies_.now = taken.at;
+    set_off(taken.sure);
+  }
+  if (crossing.enters && region.stops) end_by(taken);
 }
 
 /// Lets the bodies come into the world that are due at an instant and have room.
