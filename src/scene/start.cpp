@@ -243,6 +243,7 @@ class Starter {
     if (const Node* forces = root_.find("forces"))
       for (const Node& force : forces->items)
         if (has(force, {"from", "until"})) return true;
+
     for (const string_view kind : {"planes", "walls", "obstacles"})
       if (const Node* things = root_.find(kind))
         for (const Node& thing : things->items)

@@ -118,6 +118,20 @@ TEST(Strings, HangWhenSlack) {
   EXPECT_LT(lowest, -1);
 }
 
+TEST(Strings, ThatAreCutAreNotDrawn) {
+  const Scene scene = load_text(tied_balls +
+                                "regions: {gate: {radius: 1, position: [9, 0, 0]}}\n"
+                                "strings: {line: {from: blue, to: red, length: 3, until: {region: gate}}}\n");
+  const History history(scene, picture_needs(scene));
+  DrawingMaker maker(scene, history, {64, 36});
+  State state = scene.initial;
+  state.time = 1;
+  state.fired = {not_yet};
+  EXPECT_FALSE(maker.at(state, camera_of(scene)).strokes.empty());
+  state.fired = {0.5};
+  EXPECT_TRUE(maker.at(state, camera_of(scene)).strokes.empty());
+}
+
 TEST(Strings, OfBodiesThatAreGoneAreNotDrawn) {
   const Scene scene = load_text(tied_balls + "strings: {line: {from: blue, to: red, length: 3}}\n");
   State state = scene.initial;

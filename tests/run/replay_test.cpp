@@ -8,6 +8,7 @@
 #include "bench/state_hash.h"
 #include "physics/world.h"
 #include "run/engine.h"
+#include "run/record_queue.h"
 #include "run/run_testing.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
@@ -117,6 +118,29 @@ TEST(SceneAgain, HasTheStateAtTime0BeforeWhateverHappensThen) {
     const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
     expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 20);
   }
+}
+
+TEST(SceneAgain, KnowsEventsAsTheyComeThroughAQueue) {
+  const Scene scene = scene_named("wrecking_ball");
+  const auto simulator = make_simulator(scene, {.collisions = true, .paths = true});
+  RecordQueue queue;
+  queue.put(*simulator);
+  for (int k = 1; k <= 50; ++k) {
+    simulator->advance_to(0.05 * k);
+    queue.put(*simulator);
+  }
+  queue.end(true);
+
+  Replay replay(
+      scene.world, [&queue](Recorded& recorded) { return queue.next(recorded); }, Tally{}, true);
+  const auto same = make_simulator(scene);
+  for (int k = 1; k <= 49; ++k) {
+    carry_to(replay, 0.05 * k);
+    carry_to(*same, 0.05 * k);
+    ASSERT_TRUE(same_bits(replay.state(), same->state())) << k;
+    EXPECT_EQ(replay.state().fired, same->state().fired) << k;
+  }
+  EXPECT_LT(replay.state().fired.at(0), 1.1);
 }
 
 TEST(SceneAgain, OfTheBookHasTheStateAfterTheCollisionThatEndsIt) {
