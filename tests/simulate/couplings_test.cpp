@@ -302,5 +302,21 @@ TEST(Couplings, AreRestoredFromASnapshot) {
   }
 }
 
+TEST(Springs, ThatBeginAsDragEndsLeaveItsWorkToIt) {
+  // All at one instant: a drag on both ends, on which a force acts from then on.
+  for (const double start : {0.0, 1.0}) {
+    Problem problem;
+    problem.ball({0, 0, 0}, {0, 1, 0}, 2, 0.1);
+    problem.ball({1, 0, 0}, {0, -1, 0.5}, 1, 0.1);
+    problem.ball({1, 3, 0}, {0, -1, 0.5}, 1, 0.1);
+    problem.world.springs.push_back({0, 1, 20, 1, 0, start, infinity});
+    problem.world.springs.push_back({1, 2, 20, 3, 0, start, infinity});
+    problem.world.forces.push_back({Drag{0.5, 0, Vec3::Zero()}, 0, 1, {}});
+    problem.world.forces.push_back({UniformForce{{1, 0, 0}}, 1, infinity, {0, 2}});
+    problem.options.duration = 2;
+    EXPECT_NEAR(residual(problem, run_exact(problem)), 0, 1e-11);
+  }
+}
+
 }  // namespace
 }  // namespace carom

@@ -115,6 +115,18 @@ pair<Vec3, Vec3> ConstrainedMotion::place_of(Entity i) const {
   return {bodies_.position(i), bodies_.velocity_without_kick(i, bodies_.now)};
 }
 
+/// Books member i's flight if forces on it start or end at present: those of before have acted on it.
+void ConstrainedMotion::book_before_switch(Entity i) {
+  const Instant& now = bodies_.now;
+  if (bodies_.mode(i) == Mode::stepped || !(bodies_.flights[i].start < now)) return;
+  if (bodies_.next_switch(i, std::nextafter(now.hi, -1)) != now.hi) return;
+
+  const Vec3 x = bodies_.position(i);
+  const Vec3 v = bodies_.velocity(i);
+  flights_.book(i, x, now);
+  bodies_.flights.set(i, {now, x, v, bodies_.flights.acceleration(i)});
+}
+
 /// The members of a step, and their contacts.
 IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool undisturbed) {
   IslandStep step(Numbering(group_.numbers, members));
@@ -126,6 +138,7 @@ IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool und
     step.v.push_back(v);
     step.inverse_mass.push_back(1 / bodies_.world.mass[i]);
     step.smallest = min(step.smallest, bodies_.world.radius[i]);
+    if (bodies_.forced) book_before_switch(i);
     // A crowd's forces on it may be those of others, too.
     bodies_.couplings.any() ? bodies_.apply_forces(i, x, v) : bodies_.refresh(i, x, v);
   }

@@ -52,6 +52,7 @@ class ConstrainedMotion {
 
   void take_in_touching(Entity i);
   bool count_change(Island& island, double load, double smallest) const;
+  void book_before_switch(Entity i);
   IslandStep begin_step(const vector<Entity>& members, bool undisturbed);
   pair<Vec3, Vec3> place_of(Entity i) const;
   void apply(IslandStep& step);
