@@ -44,7 +44,7 @@ int simulators_of(Scene scene, const vector<string>& outputs) {
 class EverySceneRun : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
-  SLOW_WITH_SANITIZERS("funnel");
+  SLOW_WITH_SANITIZERS("funnel", "binary_stars", "hourglass", "lattice");
   Scene scene = scene_named(GetParam());
   const vector<string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
   EXPECT_EQ(simulators_of(scene, outputs), 1);
