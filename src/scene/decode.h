@@ -85,6 +85,9 @@ void decode_rest_lengths(const Node& root, const Inventory& inventory, Scene& sc
 optional<Entity> body_at(const Node& name, const Inventory& inventory, string_view what, Diagnostics& diagnostics);
 /// Decodes the regions. Bodies need not be decoded before.
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
+/// The numbers of a region, of all members of a repeated one, or of none where it has no members. The regions must be
+/// decoded before. None: an error was reported.
+optional<EntityRange> find_regions(const Node& name, const Scene& scene, Diagnostics& diagnostics);
 /// Decodes `simulate.stop`. The regions and `simulate` must be decoded before.
 void decode_stops(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 /// Decodes the camera. Bodies must be decoded before.

@@ -86,25 +86,8 @@ class RegionDecoder {
       scene_.simulate.stop_collisions = min(*collisions, scene_.simulate.stop_collisions.value_or(*collisions));
     if (region == nullptr || region->bad || !region->is_scalar()) return;
 
-    // A region, all members of a repeated one, or a repeated one without members.
-    const vector<string>& names = scene_.roster.regions;
-    const vector<EmptyFamily>& empty = scene_.roster.empty;
-    bool found = any_of(empty, [&name = region->text](const EmptyFamily& family) {
-      return family.of == "regions" && family.name == name;
-    });
-
-    for (size_t r = 0; r < names.size(); ++r) {
-      // family_of is empty for what is not repeated.
-      const bool meant = names[r] == region->text || (!region->text.empty() && family_of(names[r]) == region->text);
-      if (!meant) continue;
-      scene_.world.regions[r].stops = true;
-      found = true;
-    }
-
-    if (found) return;
-    const string suggestion = suggest_name(region->text, {names.begin(), names.end()});
-    diagnostics_.add(region->place, fmt::format("no region is named {}", in_backticks(region->text)),
-                     suggestion.empty() ? "expected `regions` with that name" : suggestion);
+    const EntityRange found = find_regions(*region, scene_, diagnostics_).value_or(EntityRange{});
+    for (Entity r = found.first; found.has(r); ++r) scene_.world.regions[r].stops = true;
   }
 
   const Node& root_;
@@ -114,6 +97,22 @@ class RegionDecoder {
 };
 
 }  // namespace
+
+optional<EntityRange> find_regions(const Node& name, const Scene& scene, Diagnostics& diagnostics) {
+  const vector<string>& names = scene.roster.regions;
+  EntityRange found;
+  for (Entity r = 0; r < names.size(); ++r)
+    // family_of is empty for what is not repeated.
+    if (names[r] == name.text || (!name.text.empty() && family_of(names[r]) == name.text))
+      found = {found.count == 0 ? r : found.first, found.count + 1};
+
+  const auto is_family = [&](const EmptyFamily& family) { return family.of == "regions" && family.name == name.text; };
+  if (found.count > 0 || any_of(scene.roster.empty, is_family)) return found;
+  const string suggestion = suggest_name(name.text, {names.begin(), names.end()});
+  diagnostics.add(name.place, fmt::format("no region is named {}", in_backticks(name.text)),
+                  suggestion.empty() ? "expected `regions` with that name" : suggestion);
+  return nullopt;
+}
 
 void decode_regions(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics) {
   RegionDecoder(root, inventory, scene, diagnostics).decode();

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "physics/world.h"
-#include "scene/expand.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -53,26 +52,11 @@ void EventDecoder::wait(TriggeredEnd::Of of, size_t index, const WindowEnd& from
 
 optional<Trigger> EventDecoder::trigger_of(const View& event) {
   const auto keys = filled<EventKeys>(event);
-  if (keys.region != nullptr && !keys.region->bad) return entry_of(*keys.region);
+  if (keys.region != nullptr && !keys.region->bad) {
+    const optional<EntityRange> regions = find_regions(*keys.region, scene_, diagnostics_);
+    return regions ? optional(Trigger{.regions = *regions}) : nullopt;
+  }
   if (keys.collision != nullptr && !keys.collision->bad) return collision_of(*keys.collision);
-  return nullopt;
-}
-
-optional<Trigger> EventDecoder::entry_of(const Node& region) {
-  // A region, all members of a repeated one, or a repeated one without members.
-  const vector<string>& names = scene_.roster.regions;
-  EntityRange found;
-  for (Entity r = 0; r < names.size(); ++r)
-    if (names[r] == region.text || (!region.text.empty() && family_of(names[r]) == region.text))
-      found = {found.count == 0 ? r : found.first, found.count + 1};
-
-  const auto is_family = [&](const EmptyFamily& family) {
-    return family.of == "regions" && family.name == region.text;
-  };
-  if (found.count > 0 || any_of(scene_.roster.empty, is_family)) return Trigger{.regions = found};
-  const string suggestion = suggest_name(region.text, {names.begin(), names.end()});
-  diagnostics_.add(region.place, fmt::format("no region is named {}", in_backticks(region.text)),
-                   suggestion.empty() ? "expected `regions` with that name" : suggestion);
   return nullopt;
 }
 

@@ -32,7 +32,6 @@ class EventDecoder {
 
  private:
   optional<Trigger> trigger_of(const View& event);
-  optional<Trigger> entry_of(const Node& region);
   optional<Trigger> collision_of(const Node& names);
 
   const Inventory& inventory_;

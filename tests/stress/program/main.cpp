@@ -117,7 +117,7 @@ int run(uint64_t scenes, uint64_t first) {
       const uint64_t seed = shared.current[k];
       ++counts_of(shared, seed).scenes;
       ++counts_of(shared, seed).violated;
-      report(make_scene(seed),
+      report(scene_of(seed),
              {WTERMSIG(status) == SIGVTALRM ? "it hangs" : string("it crashes: ") + strsignal(WTERMSIG(status))});
       children[k] = start(shared, k, end);
     }
