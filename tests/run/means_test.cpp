@@ -64,11 +64,11 @@ TEST(Means, OnPathsThatForcesBendAreInClosedForm) {
   const string drag =
       "scene: 1\ngravity: [0, 0, 0]\nballs: {b: {mass: 2, radius: 0.1, position: [1, 0, 0], velocity: [3, 0, 0]}}\n"
       "forces: [{drag: {linear: 4}}]\nsimulate: {duration: 1.5}";
-  const double c = 2, T = 1.5, fall = 1 - exp(-c * T);
+  const double c = 2, t = 1.5, fall = 1 - exp(-c * t);
   const auto of_drag = measured(drag, {"mean(balls.b.x_m)", "mean(balls.b.speed_m_per_s)", "mean(balls.b.kinetic_J)"});
-  EXPECT_NEAR(of_drag[0], 1 + 3 / c - 3 * fall / (c * c * T), 1e-13);
-  EXPECT_NEAR(of_drag[1], 3 * fall / (c * T), 1e-13);
-  EXPECT_NEAR(of_drag[2], 9 * (1 - exp(-2 * c * T)) / (2 * c * T), 1e-13);
+  EXPECT_NEAR(of_drag[0], 1 + 3 / c - 3 * fall / (c * c * t), 1e-13);
+  EXPECT_NEAR(of_drag[1], 3 * fall / (c * t), 1e-13);
+  EXPECT_NEAR(of_drag[2], 9 * (1 - exp(-2 * c * t)) / (2 * c * t), 1e-13);
 
   // A spring: x = cos(3 t), whatever engine follows it.
   const string spring =
