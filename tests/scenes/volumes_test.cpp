@@ -19,7 +19,8 @@ double force(const vector<ContactForce>& contacts, Entity a, Entity b) {
 
 vector<ContactForce> contacts_at(const Scene& scene, double time) {
   const auto simulator = make_simulator(scene);
-  while (simulator->time() < time) simulator->advance_to(time);
+  do simulator->advance_to(time);
+  while (simulator->time() < time);
   const auto contacts = simulator->contacts();
   return {contacts.begin(), contacts.end()};
 }

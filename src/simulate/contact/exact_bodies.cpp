@@ -51,7 +51,7 @@ bool ExactBodies::hops_fade(Entity i, double speed, double press) const {
 
 CoupledForces ExactBodies::apply_couplings(span<const Entity> those, span<const Vec3> x, span<const Vec3> v) {
   const auto number = [&](Entity i) { return uint32_t(ranges::lower_bound(those, i) - those.begin()); };
-  CoupledForces forces = couplings.among(those, now.hi, number);
+  CoupledForces forces = couplings.among(those, now.floor(), number);
   if (!forces.any()) return forces;
 
   vector<Vec3> a(those.size(), Vec3::Zero());
@@ -127,31 +127,6 @@ bool ExactBodies::any_taut(span<const Entity> those) const {
            const span<const Entity> strings = ties.of(i);
            return any_of(strings, [&](Entity string) { return is_taut(string); });
          });
-}
-
-bool ExactBodies::any_meets(span<const Entity> those) const {
-  // Whether body i and e approach. The length of a rod must not change either way.
-  const auto meets = [&](Entity i, Entity e, const Touch& there) {
-    const Vec3 v = velocity(i);
-    const Vec3 ve = velocity_of(e);
-    const double approach = there.normal.dot(v - ve);
-    const bool both_ways = world.is_string(e) && world.string(e).rod;
-    return (both_ways ? std::abs(approach) : approach) > exact_tolerance::velocity_rounding * (v.norm() + ve.norm());
-  };
-  const auto string_meets = [&](Entity e) { return is_taut(e) && meets(world.string(e).body, e, string_now(e)); };
-
-  return any_of(those, [&](Entity i) {
-    const span<const Entity> strings = ties.of(i);
-    const vector<Entity> near = neighbours_of(i);
-    const Vec3 x = position(i);
-    const auto neighbour_meets = [&](Entity e) {
-      const Vec3 xe = position_of(e);
-      const Touch there = touch(world, i, x, e, xe);
-      return there.gap <= contact_gap(i, x, xe) && meets(i, e, there);
-    };
-
-    return any_of(strings, string_meets) || any_of(near, neighbour_meets);
-  });
 }
 
 double ExactBodies::contact_gap(Entity i, const Vec3& x, const Vec3& xe) const {

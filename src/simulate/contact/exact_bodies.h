@@ -94,9 +94,6 @@ struct ExactBodies : BodyPaths {
   bool is_taut(Entity string) const;
   /// Whether one of these bodies has a taut string, or a rod.
   bool any_taut(span<const Entity> those) const;
-  /// Whether one of these bodies approaches what it touches, or the length of a taut string or of a rod, by more than
-  /// rounding.
-  bool any_meets(span<const Entity> those) const;
   /// The contact of a and b at xa, xb (m), which have just met at this feature.
   Touch touch_at(Entity a, const Vec3& xa, Entity b, const Vec3& xb, uint8_t feature) const;
 

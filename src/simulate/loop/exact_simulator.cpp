@@ -133,13 +133,10 @@ void ExactSimulator::hold_back(Entity i, const Vec3& x) {
   modes_.hold_back(i);
 }
 
-/// Takes the first step of body i's island. With strings it may be an impact, as by an impulse along a rod. It is then
-/// the first event.
+/// Makes the first step of body i's island an event, because it may be an impact, as by an impulse along a rod.
 void ExactSimulator::begin_island(Entity i) {
-  const vector<Entity>& members = bodies_.islands.of(i).members;
-  if (!bodies_.ties.any() || !bodies_.any_meets(members)) return islands_.advance(i);
   bodies_.islands.of(i).end = bodies_.now;
-  for (const Entity k : members) flights_.note_changed(k);
+  for (const Entity k : bodies_.islands.of(i).members) flights_.note_changed(k);
 }
 
 void ExactSimulator::advance_to(double time) {
