@@ -64,6 +64,49 @@ TEST(Springs, ActInTheirWindowAlone) {
   EXPECT_NEAR(run.tally.work, 0.5 * 0.75 * rate * rate, 1e-12);
 }
 
+/// The instant of an impact lies before or after the double that it rounds to.
+TEST(Springs, BeginAtTheDoubleOfAnImpact) {
+  for (int k = 0; k < 8; ++k) {
+    Problem problem;
+    problem.ball({0, 0, 0}, {-1 - 0.1 * k, 0, 0}, 1, 0.1);
+    problem.ball({1, 0, 0}, {0, 0, 0}, 3, 0.1);
+    problem.ball({1, 2, 0}, {0, 0, 0}, 2, 0.1);
+    problem.plane({-0.4, 0, 0}, {1, 0, 0});
+    problem.world.springs = {{0, 1, 40, 1, 0}};
+    problem.options.duration = 1;
+    const Outcome without = run_exact(problem);
+    ASSERT_FALSE(without.collisions.empty());
+
+    problem.world.springs.push_back({1, 2, 5, 1, 0, without.collisions[0].time});
+    const Outcome run = run_exact(problem);
+    problem.world.springs[1].from = std::nextafter(problem.world.springs[1].from, 1);
+    const Outcome later = run_exact(problem);
+    EXPECT_LT((run.end.position[2] - later.end.position[2]).norm(), 1e-13) << k;
+    EXPECT_GT(run.end.velocity[2].norm(), 0.1) << k;
+    EXPECT_NEAR(residual(problem, run), 0, 1e-12) << k;
+  }
+}
+
+/// The state before the first advance has the energy of before the impact.
+TEST(Springs, BetweenBodiesThatMeetAtTime0CollideThen) {
+  for (const double e : {0.0, 0.5}) {
+    Problem problem;
+    problem.ball({0, 0, 0}, {1, 0, 0}, 1, 0.5, e);
+    problem.ball({1, 0, 0}, {0, 0, 0}, 1, 0.5, e);
+    problem.world.springs = {{0, 1, 1, 0, 0}};
+    problem.options.duration = 0.1;
+
+    const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+    EXPECT_DOUBLE_EQ(energy(problem, simulator->state()), 1) << e;
+    const Outcome run = run_to_end(*simulator, problem.options.duration);
+    ASSERT_FALSE(run.collisions.empty()) << e;
+    EXPECT_EQ(run.collisions[0].time, 0);
+    EXPECT_EQ(run.collisions.size(), run.tally.collisions());
+    EXPECT_NEAR(run.collisions[0].energy_lost, 0.25 * (1 - e * e), 1e-15) << e;
+    EXPECT_NEAR(residual(problem, run), 0, 1e-12) << e;
+  }
+}
+
 /// Two equal bodies on a spring between two walls, symmetrical about the origin. The stretch swings with amplitude 0.3
 /// m and is cut off at 0.18 m.
 TEST(Springs, BetweenBodiesThatWallsThrowBackKeepTheirPeriod) {

@@ -55,7 +55,7 @@ vector<Entity> ExactGroup::coupled_with(Entity i) const {
     if (exchange(known[k], 1) == 0) all.push_back(k);
   };
   add(i);
-  for (size_t k = 0; k < all.size(); ++k) bodies_.couplings.for_each_link(all[k], bodies_.now.hi, add);
+  for (size_t k = 0; k < all.size(); ++k) bodies_.couplings.for_each_link(all[k], bodies_.now.floor(), add);
   ranges::sort(all);
   return all;
 }
@@ -132,7 +132,7 @@ vector<Entity> ExactGroup::asleep_beside(Entity i) const {
     if (bodies_.world.string(string).rod || bodies_.string_now(string).gap <= near) asleep.push_back(other);
   }
 
-  bodies_.couplings.for_each_link(i, bodies_.now.hi, [&](Entity other) {
+  bodies_.couplings.for_each_link(i, bodies_.now.floor(), [&](Entity other) {
     if (bodies_.mode(other) == Mode::asleep && ranges::count(asleep, other) == 0) asleep.push_back(other);
   });
   return asleep;

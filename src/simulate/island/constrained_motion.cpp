@@ -143,7 +143,8 @@ IslandStep ConstrainedMotion::begin_step(const vector<Entity>& members, bool und
     bodies_.couplings.any() ? bodies_.apply_forces(i, x, v) : bodies_.refresh(i, x, v);
   }
 
-  step.couplings = bodies_.couplings.among(members, bodies_.now.hi, [&](Entity i) { return step.members.number(i); });
+  step.couplings =
+      bodies_.couplings.among(members, bodies_.now.floor(), [&](Entity i) { return step.members.number(i); });
   step.applied = step.applied_at(bodies_, step.v);
   search_.find(step);
   return step;

@@ -16,6 +16,7 @@ class Couplings {
 
   /// Whether there are any. Where there are none, no other function need be called.
   bool any() const { return any_; }
+  // Times are doubles that have passed: just before a switch, an instant rounds to it.
   /// Whether such a force acts on body i at `time` (s).
   bool act_on(Entity i, double time) const;
   /// Calls what(other) for bodies that forces at `time` (s) connect with body i. Over such links all bodies are reached

@@ -83,7 +83,7 @@ struct BodyPaths {
     return min(merged.next_switch(i, time), couplings.next_switch(i, time));
   }
   /// Whether forces between bodies act on body i now.
-  bool is_coupled(Entity i) const { return couplings.any() && couplings.act_on(i, now.hi); }
+  bool is_coupled(Entity i) const { return couplings.any() && couplings.act_on(i, now.floor()); }
   /// Whether body i's flights, when free, are steps of a method.
   bool flies_in_steps(Entity i) const { return bent[i] != 0 || (by_method && method_bends(i)); }
   /// Whether body i's present flight is a curve of its own. A path of constrained motion is not.
