@@ -275,6 +275,22 @@ TEST(InstantImpacts, ABlowPassesStraightThroughABlockOfBoxes) {
 }
 
 /// A shaft that moves as a whole leaves its ball as little room as one at rest, and no less.
+/// A list of surfaces that carry a body has room for four.
+TEST(InstantImpacts, ABallThatFallsIntoACornerOfSixSurfacesRestsThere) {
+  Problem problem;
+  problem.world.gravity = Vec3(-1, -1, -1);
+  problem.ball({1.5, 1.5, 1.5}, {-1, -1, -1}, 1, 0.5, 0);
+  for (int k = 0; k < 6; ++k) problem.plane({0, 0, 0}, Vec3::Unit(k % 3));
+  problem.options.duration = 3;
+
+  const Outcome run = run_exact(problem);
+  ASSERT_EQ(run.collisions.size(), 6u);
+  for (const Collision& c : run.collisions) EXPECT_NEAR(c.time, sqrt(3) - 1, 1e-15);
+  EXPECT_LT((run.end.position[0] - Vec3(0.5, 0.5, 0.5)).norm(), 1e-15);
+  EXPECT_TRUE(run.end.velocity[0].isZero(0));
+  EXPECT_NEAR(run.tally.energy_lost, 4.5, 1e-14);
+}
+
 TEST(InstantImpacts, WallsThatMoveTogetherCarryTheBallBetweenThem) {
   Problem problem = in_a_shaft(1);
   problem.initial.velocity[0] = Vec3::Zero();

@@ -49,6 +49,8 @@ class FlatContacts {
 
   const FlatContactList& of(Entity i) const { return contacts_[i]; }
   bool carries(Entity i, Entity surface) const;
+  /// Whether one more surface can carry body i, beside those that do and `coming` others.
+  bool has_room(Entity i, size_t coming = 0) const { return contacts_[i].count + coming < FlatContactList::most; }
   /// Whether a surface that carries body i changes its velocity at the present instant.
   bool switches(Entity i) const;
   /// The path of a fixed thing from `start` (s) on, as long as its present velocity lasts.
@@ -58,7 +60,7 @@ class FlatContacts {
   /// Whether body i cannot strike this fixed thing, because it lies behind a surface that carries the body.
   bool hides(Entity i, Entity fixed) const;
 
-  /// Adds a surface to those that carry body i.
+  /// Adds a surface to those that carry body i, for which there must be room.
   void add(Entity i, const FlatContact& contact);
   void remove(Entity i, Entity surface);
   /// Removes surfaces that are level, or nearly so, with a surface of this normal, which carries the body from this

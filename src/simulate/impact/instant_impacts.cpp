@@ -61,6 +61,7 @@ bool InstantImpacts::strike(const Due& due) {
     }
 
     end_steps(now, approaching);
+    now.resting.assign(now.members.size(), 0);
     for (const uint32_t c : approaching) decide(now, c);
     const auto& impacts = now.set.strike(approaching);
     if (now.set.certificate().verdict == Certificate::Verdict::infeasible) check_room(now);
@@ -280,7 +281,7 @@ void InstantImpacts::decide(Moment& now, uint32_t c) {
   if (bodies_.world.is_string(row.thing))
     decide_string(row);
   else
-    bodies_.world.is_body(row.thing) ? decide_pair(row) : decide_fixed(row);
+    bodies_.world.is_body(row.thing) ? decide_pair(row) : decide_fixed(now, row);
 
   row.counted = true;
   bodies_.note_speed(row.a, bodies_.velocity(row.a));
@@ -307,7 +308,7 @@ void InstantImpacts::decide_pair(Touching& row) {
   bodies_.log.note_overlap(-impact.there.gap);
 }
 
-void InstantImpacts::decide_fixed(Touching& row) {
+void InstantImpacts::decide_fixed(Moment& now, Touching& row) {
   const FixedImpact impact = rules_.find_fixed(row.a, row.thing, row.feature);
   if (bodies_.moving.any()) rules_.check_room(impact);
   row.e = impact.e;
@@ -315,7 +316,10 @@ void InstantImpacts::decide_fixed(Touching& row) {
   row.length = bodies_.world.radius[row.a];
   row.pressed = impact.press > 0 || rules_.pressed(row.a, row.thing) > 0;
 
-  row.rests = rules_.comes_to_rest(impact, row.contact);
+  // More surfaces than a body lies on by itself carry it as an island.
+  uint8_t& resting = now.resting[now.members.number(row.a)];
+  row.rests = rules_.comes_to_rest(impact, row.contact) && parts_.flat.has_room(row.a, resting);
+  resting += row.rests;
   row.ends = !row.rests && rules_.ends(impact, row.counted);
   bodies_.log.note_overlap(-impact.there.gap);
 }
@@ -354,10 +358,12 @@ void InstantImpacts::begin_flights(Moment& now, span<const ImpactSet::Impact> im
     }
     if (row.ends && second != no_entity) parts_.group.unite_fresh(row.a, second);
 
-    // A flat surface carries the body from here on.
+    // A flat surface carries the body from here on, unless its island does, which another impact of the round has made.
     if (!row.rests) continue;
-    if (!row.contact.settling) parts_.flat.remove_level(row.a, row.contact.normal);
-    if (!parts_.flat.carries(row.a, row.thing)) parts_.flat.add(row.a, row.contact);
+    if (!is_member(bodies_.mode(row.a))) {
+      if (!row.contact.settling) parts_.flat.remove_level(row.a, row.contact.normal);
+      if (!parts_.flat.carries(row.a, row.thing)) parts_.flat.add(row.a, row.contact);
+    }
     down[now.members.number(row.a)] += row.there.gap * row.there.normal;
   }
 

@@ -85,6 +85,7 @@ class InstantImpacts {
     vector<Touching> touching;  // by row
     vector<uint8_t> gathered;   // by member: its rows are in the set
     vector<uint8_t> struck;     // by member
+    vector<uint8_t> resting;    // by member: flat surfaces that carry it from the present round on
     vector<Record> records;
     double absorbed = 0;  // J, for want of room
   };
@@ -107,7 +108,7 @@ class InstantImpacts {
   void decide(Moment& now, uint32_t c);
   void decide_string(Touching& row);
   void decide_pair(Touching& row);
-  void decide_fixed(Touching& row);
+  void decide_fixed(Moment& now, Touching& row);
   void apply(Moment& now, span<const ImpactSet::Impact> impacts, bool last);
   void begin_flights(Moment& now, span<const ImpactSet::Impact> impacts);
   void unite_ended(Moment& now, span<const ImpactSet::Impact> impacts);
