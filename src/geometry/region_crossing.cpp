@@ -211,7 +211,6 @@ optional<CrossingTime> next_crossing(const WorldRegion& region, const CenterPath
   if (sure == from) return CrossingTime{from, from};
 
   // The boundary itself is crossed before.
-  // The boundary itself is crossed before.
   const vector<Stretch> real = inside_of(region, path, {from, sure}, 0);
   if (real.empty()) return CrossingTime{inside ? from : sure, sure};
   return CrossingTime{inside ? real.back().to : real.back().from, sure};

@@ -178,6 +178,29 @@ TEST(Regions, CountAsDenseSamplesOfTheFlightsDo) {
   EXPECT_EQ(differences, 0);
 }
 
+/// A ball on a rod goes round 3,183 times in a slice of the run in which nothing else happens.
+TEST(Regions, AreCrossedAnyNumberOfTimesBetweenOtherEvents) {
+  Problem problem;
+  problem.ball({1, 0, 0}, {0, 2e5, 0}, 1, 0.1);
+  problem.world.strings = {{0, no_entity, Vec3::Zero(), 1, 0, true}};
+  problem.world.regions = {side_at({0, 0, 0}, {0, 1, 0})};
+  problem.options.duration = 0.1;
+
+  const auto simulator = make_exact_simulator(problem.world, problem.initial, problem.options);
+  vector<RegionCrossing> crossings;
+  while (simulator->time() < problem.options.duration) {
+    const double before = simulator->time();
+    simulator->advance_to(problem.options.duration);
+    EXPECT_GT(simulator->time(), before);
+    EXPECT_LE(simulator->crossings().size(), 4096u);
+    crossings.insert(crossings.end(), simulator->crossings().begin(), simulator->crossings().end());
+  }
+
+  ASSERT_EQ(crossings.size(), 6367u);
+  for (size_t k = 1; k < crossings.size(); ++k)
+    ASSERT_NEAR(crossings[k].time, double(k) * std::numbers::pi / 2e5, 1e-12) << k;
+}
+
 TEST(Regions, TakeTurnsInOrderOfTimeAndChangeNothing) {
   const Problem problem = gas_among_regions(30);
   const WithRegions run = run_with(problem), sliced = run_with(problem, 0.01);

@@ -49,6 +49,20 @@ TEST(StallGuard, NamesMovingThingsThatCloseInOnElasticBodies) {
                              "their restitution"));
 }
 
+TEST(StallGuard, NamesCrossingsOfRegions) {
+  StallGuard guard(2, 10);
+  string error;
+  try {
+    for (int k = 0; k < 2'500'000; ++k) guard.count(StallGuard::Happened::region_crossed, 5);
+  } catch (const SimulationError& stopped) {
+    error = stopped.what();
+  }
+  EXPECT_EQ(error,
+            "at t = 5 s bodies cross regions so often that the clock stands still: shorten simulate.duration, or "
+            "remove the regions");
+  EXPECT_FALSE(guard.may_be_endless());
+}
+
 TEST(StallGuard, StopsElasticImpactsOnceTheClockStandsStill) {
   StallGuard guard(2, 10);
   guard.note_restitution(1);

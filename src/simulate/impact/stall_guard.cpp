@@ -13,12 +13,16 @@ namespace carom {
 void StallGuard::count(Happened what, double now) {
   const bool impact = what == Happened::impact;
   const bool elastic = what == Happened::region_left || (impact && restitution_ == 1 && !moving_);
+  const bool crossing = what == Happened::region_crossed;
 
-  if (now - instant_ > close_) {
-    instant_ = now;
-    at_instant_ = 0;
+  // A crossing is no part of an instant's rounds.
+  if (!crossing) {
+    if (now - instant_ > close_) {
+      instant_ = now;
+      at_instant_ = 0;
+    }
+    ++at_instant_;
   }
-  ++at_instant_;
 
   if (impact) {
     highest_ = max(highest_, restitution_);
@@ -42,12 +46,13 @@ void StallGuard::count(Happened what, double now) {
           " (jammed, or inelastic collapse): give them room, end or slow `motion` before, or raise their restitution";
     if (moved_ && lowest_ == 1)
       advice = " (things that move close in on them): end or slow their `motion` before, or shorten simulate.duration";
+    if (crossing) advice = ": shorten simulate.duration, or remove the regions";
     if (elastic) advice = " (jammed, or masses too unequal): give them room, or shorten simulate.duration";
     if (highest_ > 1)
       advice = " (restitution above 1 adds energy at every collision): lower it, or shorten simulate.duration";
 
-    throw SimulationError(
-        fmt::format("at t = {} s bodies collide so often that the clock stands still{}", now, advice));
+    throw SimulationError(fmt::format("at t = {} s bodies {} so often that the clock stands still{}", now,
+                                      crossing ? "cross regions" : "collide", advice));
   }
 
   watch.checked = now;

@@ -14,7 +14,7 @@ class StallGuard {
   /// duration: of the run (s).
   StallGuard(uint64_t bodies, double duration) : many_(1'000'000 + 1000 * bodies), duration_(duration) {}
 
-  enum class Happened : uint8_t { region_left, impact, other };
+  enum class Happened : uint8_t { region_left, region_crossed, impact, other };
 
   /// Registers the restitution of an impact, and whether a moving thing took part. Elastic impacts between things that
   /// close in on a body have no end.

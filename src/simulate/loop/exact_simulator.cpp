@@ -150,6 +150,12 @@ void ExactSimulator::advance_to(double time) {
   uint32_t events = 0;
 
   do {
+    // The buffer of crossings is full. More may happen at the instant of the last one.
+    if (attends_ && crossings_.full()) {
+      time_ = max(time_, std::nextafter(crossings_.recorded().back().time, 0));
+      return crossings_.sort();
+    }
+
     while (queue_.first_time() <= until.hi) {
       const Entity i = queue_.first();
       if (attends_ && bodies_.world.body_count() > cached_bodies) prefetch_.look_ahead();
@@ -157,9 +163,12 @@ void ExactSimulator::advance_to(double time) {
       if (attends_ && watches()) [[unlikely]] {
         if (is_over()) break;
         if (happens_before(queue_.leaves_first(i) ? Instant{queue_.first_time(), 0} : bodies_.body[i].event.time,
-                           false))
+                           false)) {
+          if (crossings_.full()) break;
           continue;
+        }
       }
+
       events += take_event(i);
       if (bodies_.log.has_noted()) [[unlikely]]
         set_off(bodies_.now);
@@ -176,7 +185,7 @@ void ExactSimulator::advance_to(double time) {
         return crossings_.sort();
       }
     }
-  } while (attends_ && happens_before(until, true));
+  } while (attends_ && (crossings_.full() || happens_before(until, true)));
 
   paths_.record_changes();
   crossings_.sort();
@@ -428,6 +437,7 @@ void ExactSimulator::take_crossing(const Crossings::Taken& taken) {
   const RegionCrossing& crossing = taken.crossing;
   const WorldRegion& region = bodies_.world.regions[crossing.region];
   bodies_.log.note(crossing);
+  guard_.count(StallGuard::Happened::region_crossed, crossing.time);
 
   if (crossing.enters && region.removes) {
     while (const optional<Crossings::Taken> other = crossings_.take_of(crossing.body, taken.at)) {
