@@ -79,7 +79,10 @@ class ConservativeAdvancement {
           continue;
         }
         if (out < 0) return contact(t + on, s.feature);
-        on = max(on, leaves_until(s, t, v, out));
+        const double clear = leaves_until(s, t, v, out);
+        // Pressed on hardly at all, it would arrive in steps that rounding hides.
+        if (clear == 0) return contact(t + on, s.feature);
+        on = max(on, clear);
         if (on == never) return {never, no_feature};
       }
 

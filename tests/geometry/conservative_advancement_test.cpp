@@ -232,6 +232,22 @@ TEST(ConservativeAdvancement, APathThatLeavesARoundedEdgeAsItBendsIsFollowedToTh
     }
 }
 
+/// A ball slides up the side of a cylinder, in the tangent plane: z^2 / 2 R from it, far below what places resolve. It
+/// is pressed on by nearly nothing.
+TEST(ConservativeAdvancement, WhatHardlyPressesOnATangentIsContactAtOnce) {
+  World world;
+  world.mass = {1, 1};
+  world.restitution = {1, 1};
+  world.volume = {Volume::sphere(0.007), Volume::cylinder(0.011, 0.02)};
+  for (const Volume& v : world.volume) world.radius.push_back(v.reach());
+
+  const double z = 0x1p-58, reach = 0.007 + 0.011, pull = 4e-10;
+  for (const double along : {-0.2, 0.2}) {
+    const RelativeMotion motion{{-reach, 0.004, z}, {0, along, 0}, {pull, 0, 0}, 0.2, false};
+    EXPECT_NEAR(time_of_impact(world, 0, 1, motion, no_feature, 0.005).time, z / sqrt(reach * pull), 1e-15);
+  }
+}
+
 TEST(ConservativeAdvancement, APathAlongACurvedSurfaceThatTurnsAwayMeetsNothingLater) {
   SLOW_WITH_SANITIZERS();
   // A cylinder's side touches a box's edge, except for rounding, and approaches it no faster than rounding. The plane
