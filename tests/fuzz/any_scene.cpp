@@ -18,8 +18,19 @@ struct Units {
   double speed() const { return length / time; }
 };
 
-Volume any_volume(Maker& m, double size) {
-  return m.any_volume(m.chance(0.05) ? 1e-3 * size : size * m.uniform(0.05, 1), 0.4);
+Volume any_volume(Maker& m, double size, double spheres = 0.4) {
+  return m.any_volume(m.chance(0.05) ? 1e-3 * size : size * m.uniform(0.05, 1), spheres);
+}
+
+/// Hollow things, large enough for bodies.
+void shells(Maker& m, const Units& u) {
+  for (int k = m.whole(1, 2); k > 0; --k) {
+    const auto hollow = static_cast<Hollow>(m.whole(int(Hollow::whole), int(Hollow::side)));
+    const double radius = u.length * m.uniform(1, 4);
+    const Volume volume =
+        hollow == Hollow::side ? Volume::cylinder(radius, u.length * m.uniform(0.5, 8)) : Volume::sphere(radius);
+    m.scene.world.obstacles.push_back({m.somewhere(u.length), volume, nullopt, hollow});
+  }
 }
 
 void surfaces(Maker& m, const Units& u) {
@@ -35,6 +46,8 @@ void surfaces(Maker& m, const Units& u) {
 }
 
 void bodies(Maker& m, const Units& u) {
+  // Only balls meet shells.
+  const bool shells = any_of(m.scene.world.obstacles, [](const Obstacle& o) { return o.hollow != Hollow::none; });
   const bool wide = m.chance(0.15), lively = m.chance(0.05), far = m.chance(0.1);
   const double e = m.restitution();
   for (int k = m.whole(0, 8); k > 0; --k) {
@@ -46,7 +59,7 @@ void bodies(Maker& m, const Units& u) {
     if (m.chance(0.05)) v *= m.any({most_speeds, 1e-9, 1e-3});
     if (m.chance(0.2)) v = Vec3(0, -v.norm(), 0);
 
-    const Volume volume = any_volume(m, u.length);
+    const Volume volume = any_volume(m, u.length, shells ? 1 : 0.4);
     const auto& placed = m.scene.initial.position;
     if (!placed.empty() && m.chance(0.3)) {  // touching another, along an axis
       const Entity other = static_cast<Entity>(m.whole(0, static_cast<int>(placed.size()) - 1));
@@ -127,6 +140,7 @@ void strings(Maker& m, const Units& u) {
     String string;
     string.body = static_cast<Entity>(m.whole(0, n - 1));
     const auto other = static_cast<Entity>(m.whole(0, n - 1));
+    if (world.comes_later(string.body) || world.comes_later(other)) continue;
     if (m.chance(0.5) && other != string.body) {
       string.other = std::max(string.body, other);
       string.body = std::min(string.body, other);
@@ -149,6 +163,92 @@ void strings(Maker& m, const Units& u) {
 
     if (string.length > 0) world.strings.push_back(string);
   }
+}
+
+/// Springs between bodies, and gravitation among them.
+void couplings(Maker& m, const Units& u) {
+  World& world = m.scene.world;
+  const auto n = static_cast<int>(world.body_count());
+  const double light = n == 0 ? u.mass : *ranges::min_element(world.mass), duration = m.scene.options.duration;
+  const auto window = [&](auto& law) {
+    if (m.chance(0.3)) law.from = duration * m.uniform(0, 1);
+    if (m.chance(0.3)) law.until = law.from + duration * m.uniform(0.01, 0.7);
+  };
+
+  for (int k = n < 2 ? 0 : m.whole(1, 6); k > 0; --k) {
+    BodySpring spring{static_cast<Entity>(m.whole(0, n - 1)), static_cast<Entity>(m.whole(0, n - 1))};
+    if (spring.a == spring.b || world.comes_later(spring.a) || world.comes_later(spring.b)) continue;
+    // No stronger across the scene than at its unit.
+    const vector<Vec3>& x = m.scene.initial.position;
+    const double distance = (x[spring.a] - x[spring.b]).norm();
+    spring.stiffness = light / (u.time * u.time) * m.spread(1e-3, 30) * std::min(1.0, 3 * u.length / distance);
+    spring.rest_length = u.length * m.any({0, 1, 1}) * m.uniform(0, 4);
+    spring.damping = light / u.time * m.any({0, 0, 0.1, 3});
+    window(spring);
+    world.springs.push_back(spring);
+  }
+
+  if (n < 2 || !m.chance(0.3)) return;
+  Gravitation law;
+  law.constant =
+      m.any({1, 1, -1}) * u.length * u.speed() * u.speed() / *ranges::max_element(world.mass) * m.uniform(0, 3);
+  law.softening = u.length * m.any({0, 0, 0.1, 1});
+  for (Entity i = 0; i < world.body_count(); ++i)
+    if (!world.comes_later(i)) law.on.push_back(i);
+  window(law);
+  if (law.on.size() >= 2) world.gravitations.push_back(law);
+}
+
+/// Some bodies come later.
+void appearances(Maker& m) {
+  World& world = m.scene.world;
+  world.appears.assign(world.body_count(), -infinity);
+  for (double& due : world.appears)
+    if (m.chance(0.4)) due = m.scene.options.duration * m.uniform(0, 0.8);
+}
+
+/// Things that shake, and that repeat their windows.
+void swings(Maker& m, const Units& u) {
+  World& world = m.scene.world;
+  world.motions.resize(world.fixed_count());
+  for (SurfaceMotion& motion : world.motions) {
+    if (motion.moves() || !m.chance(0.6)) continue;
+    const double period = u.time * m.spread(0.03, 10);
+    if (m.chance(0.5)) {
+      motion = motion_on_sine(u.speed() * period * m.spread(1e-3, 0.3) * m.direction(), period, m.any({0, 90}));
+      continue;
+    }
+
+    const Vec3 v = u.speed() * m.spread(1e-2, 2) * m.direction();
+    const double middle = period * m.uniform(0.1, 0.5), end = period * m.uniform(0.6, 1);
+    motion = motion_in_windows(array{MotionWindow{0, middle, v}, MotionWindow{middle, end, -v * m.any({1, 1, 0.5})}},
+                               period);
+  }
+}
+
+/// Events set some times of forces and strings.
+void events(Maker& m) {
+  using Of = TriggeredEnd::Of;
+  World& world = m.scene.world;
+  if (world.body_count() == 0) return;
+  const auto wait = [&](Of of, size_t index, bool ends, double& time) {
+    if (!m.chance(0.4)) return;
+    time = not_yet;
+    const double after = m.chance(0.5) ? 0 : m.scene.options.duration * m.uniform(0, 0.3);
+    world.triggers.ends.push_back({of, uint32_t(index), 0, ends, m.event(world, m.scene.initial), after});
+  };
+
+  const auto windows = [&](Of of, auto& laws) {
+    for (size_t k = 0; k < laws.size(); ++k) {
+      wait(of, k, false, laws[k].from);
+      if (laws[k].from != not_yet || !isfinite(laws[k].until)) wait(of, k, true, laws[k].until);
+    }
+  };
+
+  windows(Of::force, world.forces);
+  windows(Of::body_spring, world.springs);
+  windows(Of::gravitation, world.gravitations);
+  for (size_t k = 0; k < world.strings.size(); ++k) wait(Of::string, k, true, world.strings[k].until);
 }
 
 /// Keys of `simulate`.
@@ -178,15 +278,22 @@ void everything(Maker& m, bool tied) {
   }
 
   surfaces(m, u);
+  if (m.chance(0.2)) shells(m, u);
   bodies(m, u);
+  if (m.chance(0.2)) appearances(m);
   forces(m, u);
   m.rules();
+  for (PairRestitution& pair : m.scene.world.pairs)
+    if (m.chance(0.2)) pair.value.reset();
 
   m.scene.options.merge = m.chance(0.05);
   if (m.chance(0.1)) m.scene.options.rest_speed = u.speed() * m.spread(1e-6, 1e-1);
   if (m.chance(0.2)) m.motions(m.scene.world, m.scene.initial, m.scene.options.duration, u.speed());
+  if (m.chance(0.2)) swings(m, u);
   regions(m, u);
   if (tied) strings(m, u);
+  if (tied && m.chance(0.3)) couplings(m, u);
+  if (m.chance(0.3)) events(m);
 
   World& world = m.scene.world;
   const bool spheres = all_of(world.volume, [](const Volume& v) { return v.shape == Shape::sphere; });

@@ -5,6 +5,8 @@
 #include <ctime>
 
 #include "physics/body_now.h"
+#include "physics/coupled_forces.h"
+#include "physics/energy.h"
 #include "physics/force.h"
 #include "physics/world.h"
 #include "run/engine.h"
@@ -20,6 +22,8 @@ constexpr int instants = 16;
 constexpr int most_idle = 100'000;  // calls in which a simulator may neither advance nor record
 constexpr double relative_rounding = 2e-14;
 constexpr double in_islands = 1e-10;
+constexpr double unbalanced = 1e-8, unbalanced_in_crowds = 1e-4;
+constexpr double touching = 2e-11;  // of a radius: a body appears where it overlaps others by less
 
 class Run {
  public:
@@ -29,12 +33,14 @@ class Run {
   void run() {
     const EngineChoice engine = choose_engine(scene_);
     outcome_.engine = name_of(engine.engine);
-    exact_ = engine.engine == Engine::exact && varying_force(world_) == nullptr;
+    exact_ = engine.engine == Engine::exact && varying_force(world_) == nullptr && !has_couplings(world_);
+    balanced_ = engine.engine == Engine::exact;
     book_ = engine.engine == Engine::book;
 
     try {
       simulator_ = make_simulator(scene_, {.collisions = true}, engine.steps);
       const long double before = energy();
+      const double stored = kinetic_energy(world_, simulator_->state()) + potential_energy(world_, simulator_->state());
 
       if (!go_to(0) || !check_state()) return;
       for (int k = 1; k <= instants; ++k) {
@@ -52,6 +58,7 @@ class Run {
 
       if (exact_) books(static_cast<double>(energy() - before), tally);
       if (exact_) overlaps(tally);
+      if (balanced_) balance(stored, tally);
     } catch (const SimulationError& error) {
       outcome_.stopped = error.what();
       if (outcome_.stopped.empty()) fail("an error without a text");
@@ -160,12 +167,27 @@ class Run {
     if (scene_.simulate.contact.merge) return;
     const double relative =
         relative_rounding * (1 + sqrt(static_cast<double>(counted_))) + (tally.collapses > 0 ? in_islands : 0);
-    const double size =
-        size_ + std::abs(tally.energy_lost) + std::abs(tally.work) + std::abs(tally.changes.removed.energy);
-    if (!(std::abs(gain + tally.energy_lost + tally.method_error + tally.changes.removed.energy - tally.work) <=
-          relative * size))
+    const double size = size_ + std::abs(tally.energy_lost) + std::abs(tally.work) +
+                        std::abs(tally.changes.removed.energy) + std::abs(tally.changes.appeared.energy);
+    if (!(std::abs(gain + tally.energy_lost + tally.method_error + tally.changes.removed.energy -
+                   tally.changes.appeared.energy - tally.work) <= relative * size))
       fail(fmt::format("energy books: gains {} J, lost {} J, work {} J, of {} J", gain, tally.energy_lost, tally.work,
                        size));
+  }
+
+  /// The same under any forces.
+  void balance(double stored, const Tally& tally) {
+    const State& end = simulator_->state();
+    const double potential = potential_energy(world_, end);
+    const double gain = kinetic_energy(world_, end) + potential - stored;
+    const WorldChanges& changes = tally.changes;
+    const double size = size_ + std::abs(stored) + std::abs(potential) + std::abs(tally.energy_lost) +
+                        std::abs(tally.work) + std::abs(changes.removed.energy) + std::abs(changes.appeared.energy);
+    const double residual =
+        gain + tally.energy_lost + tally.method_error + changes.removed.energy - changes.appeared.energy - tally.work;
+    if (!(std::abs(residual) <= (tally.stepped_contact > 0 ? unbalanced_in_crowds : unbalanced) * size))
+      fail(fmt::format("energy balance: residual {} J, gains {} J, lost {} J, work {} J, of {} J", residual, gain,
+                       tally.energy_lost, tally.work, size));
   }
 
   /// What the records have lost, and what contact has absorbed without a record, is all that is lost.
@@ -182,7 +204,8 @@ class Run {
     for (const Obstacle& o : world_.obstacles) extent = std::max(extent, o.center.cwiseAbs().sum() + o.volume.reach());
     for (const Plane& p : world_.planes) extent = std::max(extent, p.point.cwiseAbs().sum());
     for (const double r : world_.radius) largest = std::max(largest, r);
-    const double allowed = 2 * relative_rounding * extent + (tally.collapses > 0 ? in_islands * largest : 0);
+    const double allowed = 2 * relative_rounding * extent + (tally.collapses > 0 ? in_islands * largest : 0) +
+                           (world_.appears.empty() ? 0 : touching * largest);
     if (!(tally.max_overlap <= allowed)) fail(fmt::format("bodies overlap by {} m", tally.max_overlap));
   }
 
@@ -221,7 +244,7 @@ class Run {
   Outcome& outcome_;
   const std::clock_t begin_ = std::clock();
   unique_ptr<Simulator> simulator_;
-  bool exact_ = false, book_ = false;
+  bool exact_ = false, balanced_ = false, book_ = false;
   double last_ = 0;       // s, of the last record
   double extent_ = 0;     // m, of the farthest place
   double size_ = 0;       // J, without signs

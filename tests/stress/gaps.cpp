@@ -59,6 +59,15 @@ Real volumes(const Long3& d, const Volume& a, const Volume& b) {
   return joined(joined(gap[0], gap[1]), gap[2]);
 }
 
+/// The distance of a point from a shell, along which the axis of its half or of its side is y.
+Real from_shell(const Long3& d, const Obstacle& shell) {
+  const Real r = shell.volume.half.x(), y = d.y();
+  if (shell.hollow == Hollow::side) return hypot(level(d) - r, y - clamped(y, shell.volume.half.y()));
+  const bool beyond_rim =
+      (shell.hollow == Hollow::lower_half && y > 0) || (shell.hollow == Hollow::upper_half && y < 0);
+  return beyond_rim ? hypot(level(d) - r, y) : std::abs(d.norm() - r);
+}
+
 Real at_plane(const Long3& x, const Volume& v, const Plane& p, const Long3& point) {
   const Long3 n = p.normal.cast<Real>();
   Real reach = v.half.x();
@@ -79,6 +88,7 @@ long double gap(const World& world, Entity a, const Long3& xa, Entity b, const L
   const Volume v = world.volume_of(a);
   if (world.is_body(b)) return volumes(xb - xa, v, world.volume_of(b));
   if (world.is_plane(b)) return at_plane(xa, v, world.plane(b), xb);
+  if (world.is_shell(b)) return from_shell(xa - xb, world.obstacle(b)) - v.half.x();
   if (world.is_obstacle(b)) return volumes(xb - xa, v, world.obstacle(b).volume);
   if (v.shape == Shape::sphere) return sphere_at_wall(xa, v.half.x(), world.wall(b), xb);
   return touch(world, a, xa.cast<double>(), b, xb.cast<double>()).gap;

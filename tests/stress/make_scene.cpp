@@ -200,7 +200,6 @@ void Maker::motions(World& world, const State& initial, double duration, double 
   }
 }
 
-/// The first collision of a body, or its first entry into a half-space near its start.
 uint32_t Maker::event(World& world, const State& initial) {
   const auto body = static_cast<Entity>(whole(0, static_cast<int>(world.body_count()) - 1));
   Trigger trigger{.a = {body, 1}, .b = {0, no_entity}};

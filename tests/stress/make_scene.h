@@ -44,12 +44,12 @@ class Maker {
   void forces(double duration, double acceleration);
   /// Of fixed things, up to this speed. Events set some of their times.
   void motions(World& world, const State& initial, double duration, double speed);
+  /// An event of a body, by its number: its first collision, or its first entry into a half-space near its start.
+  uint32_t event(World& world, const State& initial);
 
   RandomScene& scene;
 
  private:
-  uint32_t event(World& world, const State& initial);
-
   Draws random_;
 };
 

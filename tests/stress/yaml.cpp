@@ -55,6 +55,30 @@ string name(const World& world, Entity e) {
   return "s" + to_string(k - world.fixed_count());
 }
 
+string name(const World& world, const EntityRange& range) {
+  return range.first + range.count > world.entity_count() ? "" : name(world, range.first);
+}
+
+/// A time, or the event that sets it.
+string time_text(const World& world, TriggeredEnd::Of of, size_t index, uint32_t window, bool ends, double time) {
+  const auto& all = world.triggers.ends;
+  const auto end = ranges::find_if(all, [&](const TriggeredEnd& e) {
+    return e.of == of && e.index == index && e.window == window && e.ends == ends;
+  });
+  if (end == all.end()) return text(time);
+
+  const Trigger& trigger = world.triggers.all[end->trigger];
+  const string after = ", after: " + text(end->after) + "}";
+  if (trigger.regions) return "{region: r" + to_string(trigger.regions->first) + after;
+  const string b = name(world, trigger.b);
+  return "{collision: [" + name(world, trigger.a) + (b.empty() ? "" : ", " + b) + "]" + after;
+}
+
+string window_text(const World& world, TriggeredEnd::Of of, size_t index, uint32_t window, double from, double until) {
+  return "from: " + time_text(world, of, index, window, false, from) +
+         (isfinite(until) ? ", until: " + time_text(world, of, index, window, true, until) : "");
+}
+
 string bodies(const RandomScene& scene) {
   const World& world = scene.world;
   string out = world.volume.empty() ? "balls:\n" : "bodies:\n";
@@ -63,22 +87,52 @@ string bodies(const RandomScene& scene) {
            ", position: " + text(scene.initial.position[i]) + ", velocity: " + text(scene.initial.velocity[i]) +
            ", restitution: " + text(world.restitution[i]);
     if (!world.impulse.empty()) out += ", impulse: " + text(world.impulse[i]);
+    if (world.comes_later(i)) out += ", appear: " + text(world.appears[i]);
     out += "}\n";
   }
   return world.body_count() == 0 ? "" : out;
 }
 
+string windows(const World& world, Entity e) {
+  const SurfaceMotion& motion = world.motion(e);
+  string list;
+  const auto add = [&](const string& window, const Vec3& velocity) {
+    list += (list.empty() ? "{" : ", {") + window + ", velocity: " + text(velocity) + "}";
+  };
+
+  if (!motion.windows.empty()) {
+    for (uint32_t w = 0; w < motion.windows.size(); ++w)
+      add(window_text(world, TriggeredEnd::Of::motion, e - world.body_count(), w, motion.windows[w].from,
+                      motion.windows[w].until),
+          motion.windows[w].velocity);
+    return "[" + list + "]";
+  }
+
+  for (size_t k = 0; k < motion.legs.size(); ++k) {
+    const MotionLeg& leg = motion.legs[k];
+    const double until = k + 1 < motion.legs.size() ? motion.legs[k + 1].from : motion.every;
+    if (!leg.velocity.isZero(0))
+      add("from: " + text(leg.from) + (isfinite(until) ? ", until: " + text(until) : ""), leg.velocity);
+  }
+  return isfinite(motion.every) ? "{every: " + text(motion.every) + ", windows: [" + list + "]}" : "[" + list + "]";
+}
+
+/// Of swings those on a sine that starts in its middle or at an end.
 string motion(const World& world, Entity e) {
   if (!world.moves(e)) return "";
-  const vector<MotionLeg>& legs = world.motion(e).legs;
-  string list;
-  for (size_t k = 0; k < legs.size(); ++k) {
-    if (legs[k].velocity.isZero(0)) continue;
-    list += (list.empty() ? "{from: " : ", {from: ") + text(legs[k].from);
-    if (k + 1 < legs.size()) list += ", until: " + text(legs[k + 1].from);
-    list += ", velocity: " + text(legs[k].velocity) + "}";
-  }
-  return ", motion: [" + list + "]";
+  const Swing* swing = world.swing(e);
+  if (swing == nullptr) return ", motion: " + windows(world, e);
+  const bool in_middle = swing->cosine.isZero(0);
+  return ", motion: {sine: {amplitude: " + text(in_middle ? swing->sine : swing->cosine) +
+         ", period: " + text(swing->period) + ", phase: " + (in_middle ? "0" : "90") + "}}";
+}
+
+string hollow(const Obstacle& obstacle) {
+  if (obstacle.hollow == Hollow::none) return "";
+  return string(", inside: true, open: ") + (obstacle.hollow == Hollow::whole        ? "none"
+                                             : obstacle.hollow == Hollow::lower_half ? "top"
+                                             : obstacle.hollow == Hollow::upper_half ? "bottom"
+                                                                                     : "both");
 }
 
 string fixed(const World& world) {
@@ -101,8 +155,8 @@ string fixed(const World& world) {
 
   if (!world.obstacles.empty()) out += "obstacles:\n";
   for (const Obstacle& o : world.obstacles) {
-    out += "  " + name(world, e) + ": {position: " + text(o.center) + ", " + text(o.volume) + text(o.restitution) +
-           motion(world, e) + "}\n";
+    out += "  " + name(world, e) + ": {position: " + text(o.center) + ", " + text(o.volume) + hollow(o) +
+           text(o.restitution) + motion(world, e) + "}\n";
     ++e;
   }
   return out;
@@ -115,7 +169,9 @@ string strings(const World& world) {
     out += "  " + name(world, world.string_number(k)) +
            ": {from: " + (s.other == no_entity ? text(s.anchor) : name(world, s.other)) +
            ", to: " + name(world, s.body) + ", length: " + text(s.length) + ", restitution: " + text(s.restitution) +
-           (s.rod ? ", rod: true}\n" : "}\n");
+           (s.rod ? ", rod: true" : "") +
+           (isfinite(s.until) ? ", until: " + time_text(world, TriggeredEnd::Of::string, k, 0, true, s.until) : "") +
+           "}\n";
   }
   return out;
 }
@@ -144,13 +200,27 @@ string regions(const World& world) {
 }
 
 string forces(const World& world) {
-  string out = world.forces.empty() ? "" : "forces:\n";
-  for (const Force& f : world.forces) {
-    out += "  - {" + std::visit([](const auto& law) { return text(law); }, f.law) + ", from: " + text(f.from);
-    if (isfinite(f.until)) out += ", until: " + text(f.until);
-    out += on_text(world, f.on) + "}\n";
+  using Of = TriggeredEnd::Of;
+  string out;
+  for (size_t k = 0; k < world.forces.size(); ++k) {
+    const Force& f = world.forces[k];
+    out += "  - {" + std::visit([](const auto& law) { return text(law); }, f.law) + ", " +
+           window_text(world, Of::force, k, 0, f.from, f.until) + on_text(world, f.on) + "}\n";
   }
-  return out;
+
+  // Between bodies.
+  for (size_t k = 0; k < world.springs.size(); ++k) {
+    const BodySpring& s = world.springs[k];
+    out += "  - {spring: {from: " + name(world, s.a) + ", to: " + name(world, s.b) +
+           ", stiffness: " + text(s.stiffness) + ", rest_length: " + text(s.rest_length) +
+           ", damping: " + text(s.damping) + "}, " + window_text(world, Of::body_spring, k, 0, s.from, s.until) + "}\n";
+  }
+  for (size_t k = 0; k < world.gravitations.size(); ++k) {
+    const Gravitation& g = world.gravitations[k];
+    out += "  - {gravitation: {constant: " + text(g.constant) + ", softening: " + text(g.softening) + "}, " +
+           window_text(world, Of::gravitation, k, 0, g.from, g.until) + on_text(world, g.on) + "}\n";
+  }
+  return out.empty() ? "" : "forces:\n" + out;
 }
 
 string restitution(const World& world) {
