@@ -23,13 +23,9 @@ inline float half_width(const Shot& shot, const Solid& s, const Float3& d) {
 }
 float half_width_of_others(const Shot& shot, const Solid& s, const Float3& d) {
   if (s.kind == SolidKind::mesh) return std::max(s.radius, 1.5F * shot.meshes[s.part].reach);
-  if (s.kind == SolidKind::wall) {
-    const WallAxes& axes = shot.walls[s.part];
-    return s.half[0] * std::abs(dot(axes.right, d)) + s.half[1] * std::abs(dot(axes.up, d));
-  }
-  const float x = std::abs(dot(shot.lens.axes[0], d)), y = std::abs(dot(shot.lens.axes[1], d)),
-              z = std::abs(dot(shot.lens.axes[2], d));
-  if (s.kind == SolidKind::box) return s.half[0] * x + s.half[1] * y + s.half[2] * z;
+  const array<Float3, 3>& axes = axes_of(shot, s);
+  const float x = std::abs(dot(axes[0], d)), y = std::abs(dot(axes[1], d)), z = std::abs(dot(axes[2], d));
+  if (s.kind != SolidKind::cylinder) return s.half[0] * x + s.half[1] * y + s.half[2] * z;
   return s.half[0] * std::sqrt(x * x + z * z) + s.half[1] * y;
 }
 
@@ -180,7 +176,9 @@ void LightGrid::sort_into_cells(const Shot& shot) {
   for (LightCells* cells : {&balls, &others}) cells->start.assign(count + 1, 0);
   is_ball_.resize(shot.solids.size());
   for (size_t i = 0; i < shot.solids.size(); ++i) {
-    is_ball_[i] = shot.solids[i].kind == SolidKind::ball;
+    const Solid& s = shot.solids[i];
+    // Packs have no opacity.
+    is_ball_[i] = s.kind == SolidKind::ball && (s.finish == 0 || shot.finishes[s.finish].opacity == 1);
     LightCells& cells = is_ball_[i] ? balls : others;
     each_cell(i, [&](size_t cell) { ++cells.start[cell + 1]; });
   }

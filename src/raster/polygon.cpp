@@ -52,22 +52,15 @@ class Projection {
   vector<PlanePoint> points_;
 };
 
-void project_box(const Lens& lens, const Solid& solid, Projection& to) {
+void project_box(const array<Float3, 3>& axes, const Solid& solid, Projection& to) {
   const auto corner = [&](int k) {
     Vec3 p = vec(solid.center);
-    for (size_t i = 0; i < 3; ++i) p += (k >> i & 1 ? 1 : -1) * double{solid.half[i]} * vec(lens.axes[i]);
+    for (size_t i = 0; i < 3; ++i) p += (k >> i & 1 ? 1 : -1) * double{solid.half[i]} * vec(axes[i]);
     return p;
   };
   for (int k = 0; k < 8; ++k)
     for (int i = 0; i < 3; ++i)
       if (!(k >> i & 1)) to.add(corner(k), corner(k | 1 << i));
-}
-
-void project_wall(const Solid& solid, const WallAxes& axes, Projection& to) {
-  const Vec3 c = vec(solid.center);
-  const Vec3 u = double{solid.half[0]} * vec(axes.right), v = double{solid.half[1]} * vec(axes.up);
-  const Vec3 corners[4] = {c - u - v, c + u - v, c + u + v, c - u + v};
-  for (int k = 0; k < 4; ++k) to.add(corners[k], corners[(k + 1) % 4]);
 }
 
 void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
@@ -96,9 +89,9 @@ void project_cylinder(const Lens& lens, const Solid& solid, Projection& to) {
 
 vector<PlanePoint> outline_polygon(const Shot& shot, const Solid& solid) {
   Projection projection(shot.lens.near);
-  if (solid.kind == SolidKind::box) project_box(shot.lens, solid, projection);
+  if (solid.kind == SolidKind::box || solid.kind == SolidKind::wall)
+    project_box(axes_of(shot, solid), solid, projection);
   if (solid.kind == SolidKind::cylinder) project_cylinder(shot.lens, solid, projection);
-  if (solid.kind == SolidKind::wall) project_wall(solid, shot.walls[solid.part], projection);
   return projection.hull();
 }
 

@@ -22,11 +22,12 @@ inline constexpr float far_off = 1e30F;
 struct Solid {
   Float3 center{};
   float radius = 0;  // m, of the ball, or of a ball around the solid
-  Float3 half{};     // m, along the world's axes; walls: half width, half height, 0
+  Float3 half{};     // m, along the world's axes; walls: along their own
   SolidKind kind = SolidKind::ball;
   Float3 color{1, 1, 1};
   float glow = 0;            // 0 to 1: the share of its light that is its own, which is white
   uint32_t part = 0;         // walls, meshes: index into Shot::walls, Shot::meshes
+  uint32_t finish = 0;       // index into Shot::finishes
   bool shadow_only = false;  // out of view
   bool shell = false;        // of a hollow thing: it takes no light from others
   // A hollow ball, or a cylinder without ends: its far side alone is seen, from within.
@@ -34,10 +35,15 @@ struct Solid {
   float low = -far_off, high = far_off;  // m: heights above its centre between which a hollow solid extends
 };
 
-/// Unit vectors of a wall.
-struct WallAxes {
-  Float3 right{}, up{};
-  Float3 normal{};  // to the eye's side
+/// How a surface reflects light. Shares are of 1.
+struct SurfaceLight {
+  float matt = 1;                                  // of the light that it scatters
+  float least_mirror = 0.04F, most_mirror = 0.5F;  // of an image, seen from the front and at grazing angles
+  float glint = 0.35F;                             // of the lamps
+  float tint = 0;                                  // by which image and glint have its colour
+  float emission = 0;                              // light of its own colour
+  float opacity = 1;                               // 0: what is behind it is seen, but for its mirror image
+  friend bool operator==(const SurfaceLight&, const SurfaceLight&) = default;
 };
 
 /// What a mesh casts its shadow by.
@@ -55,7 +61,11 @@ struct Ground {
   Float3 right, up;               // unit, along it
   float right_offset, up_offset;  // m, of the eye in the pattern
   Float3 color;
-  bool corners;  // others meet it
+  float opacity = 1;  // over the backdrop
+  bool corners;       // others meet it
+  // What it mirrors, as a picture of these pixels with their opacity (sRGB); null: nothing.
+  const uint8_t* image = nullptr;
+  float least_mirror = 0, most_mirror = 0, tint = 0;  // as of a solid
 };
 
 struct Lamp {
@@ -98,6 +108,7 @@ struct Backdrop {
   bool plain = false;  // of one colour; otherwise a sky
   bool none = false;   // transparent
   Float3 color{};
+  Float3 above{}, horizon{}, below{};  // of the sky
 };
 
 struct Lighting {
@@ -105,19 +116,43 @@ struct Lighting {
   Float3 ambient{};
   float softness = 0;     // tangent of half the angle of the key light
   float lamp_radius = 0;  // m, of a key light that is near
+  float rim = 0;          // light from behind at the edges of solids
+  float flat = 0;         // part of a colour that is shown without regard to light
+};
+
+/// Lines along the outlines and edges of solids.
+struct Outlines {
+  float width = 0;  // pixels; 0: none
+  Float3 ink{};
 };
 
 /// The ground that lights bodies from below.
 struct FloorLight {
   bool present = false;
   Float3 normal{};
-  float height = 0;     // m, of the eye above it
+  float height = 0;  // m, of the eye above it
+  Float3 color{};
   Float3 sky{}, key{};  // what it sends up, of the sky and of the key light
 };
 
+/// Light that the lens scatters around a thing that glows.
+struct Halo {
+  float x, y, radius;  // pixels, of its outline
+  float depth;         // 1 / z of its nearest point, 1 / m
+  Float3 color;
+};
+
+enum class PatternKind : int32_t { none, squares, lines };
+
 struct Pattern {
-  float unit = 1;   // m, side of the squares
-  float reach = 1;  // m, from the eye to the main content; grounds melt into the sky many times as far away
+  PatternKind kind = PatternKind::squares;
+  float contrast = 0.1F;
+  Float3 ink{};          // of lines
+  float spot = 0;        // part of its light that a ground loses far away
+  Float3 middle{};       // m, from where the light falls off
+  float spot_reach = 1;  // m, where half of that is lost
+  float unit = 1;        // m, side of the squares
+  float reach = 1;       // m, from the eye to the main content; grounds melt into the sky many times as far away
 };
 
 struct Shot {
@@ -126,12 +161,20 @@ struct Shot {
   Lighting lighting;
   FloorLight floor;
   Pattern pattern;
+  Outlines edges;
   vector<Ground> grounds;
+  vector<SurfaceLight> finishes = vector<SurfaceLight>(1);
+  vector<Halo> halos;
   vector<Solid> solids;
-  vector<WallAxes> walls;
+  vector<array<Float3, 3>> walls;  // unit axes: right, up, normal
   vector<MeshShadow> meshes;
   const MeshOutlines* outlines = nullptr;  // where a MeshShadow has one
   const MeshPixels* mesh_pixels = nullptr;
 };
+
+/// The unit axes along which a solid extends by its `half`.
+inline const array<Float3, 3>& axes_of(const Shot& shot, const Solid& solid) {
+  return solid.kind == SolidKind::wall ? shot.walls[solid.part] : shot.lens.axes;
+}
 
 }  // namespace carom::raster

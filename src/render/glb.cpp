@@ -125,7 +125,7 @@ class GlbBuilder {
       }
     }
     if (!scene_.lights.empty()) return;
-    const KeyLight light = default_light(view_of(camera_, size_));
+    const KeyLight light = default_light(scene_.look, view_of(camera_, size_));
     add_sun("sun", light.towards, light.radiance, 1);
   }
 

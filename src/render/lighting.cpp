@@ -13,15 +13,41 @@ array<float, 3> linear(const Color& srgb) {
   return {light(srgb.r), light(srgb.g), light(srgb.b)};
 }
 
-KeyLight default_light(const CameraFrame& view) {
+KeyLight default_light(SceneLook look, const CameraFrame& view) {
   Vec3 ahead = Vec3(view.forward.x(), 0, view.forward.z());
   if (!(ahead.norm() > 1e-3)) ahead = Vec3(view.up.x(), 0, view.up.z());
   ahead.normalize();
   const Vec3 right = Vec3(-ahead.z(), 0, ahead.x());
-  return {(-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized(), {0.82F, 0.80F, 0.76F}};
+  raster::Float3 radiance = linear(from_rgb(style_of(look).key));
+  for (float& c : radiance) c *= float(style_of(look).key_strength);
+  return {(-0.55 * right + 1.0 * Vec3(0, 1, 0) - 0.45 * ahead).normalized(), radiance};
+}
+
+raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise) {
+  const Finish finish = surface.finish.value_or(otherwise);
+  raster::SurfaceLight light;
+  switch (finish) {
+    case Finish::matte:
+      light = {.matt = 1, .least_mirror = 0, .most_mirror = 0, .glint = 0};
+      break;
+    case Finish::plastic:
+      break;
+    case Finish::metal:
+      light = {.matt = 0.15F, .least_mirror = 0.8F, .most_mirror = 0.95F, .glint = 0.9F, .tint = 1};
+      break;
+    case Finish::glass:
+      light = {.matt = 0.5F, .least_mirror = 0.04F, .most_mirror = 1, .glint = 1, .opacity = 0.2F};
+      break;
+    case Finish::glow:
+      light = {.matt = 0.2F, .glint = 0, .emission = 1};
+      break;
+  }
+  if (surface.opacity) light.opacity = float(*surface.opacity);
+  return light;
 }
 
 void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
+  const LookStyle& style = style_of(scene.look);
   shot.lighting.lamps.clear();
 
   // A camera that moves leaves the lights as they are at time 0.
@@ -38,12 +64,14 @@ void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   }
 
   if (scene.lights.empty()) {
-    const KeyLight light = default_light(view_of(at_start, eye.size));
+    const KeyLight light = default_light(scene.look, view_of(at_start, eye.size));
     shot.lighting.lamps.push_back({floats(eye.direction(light.towards)), false, light.radiance});
   }
 
   shot.lighting.softness = float(softness);
-  shot.lighting.ambient = scene.ambient ? linear(*scene.ambient) : raster::Float3{0.26F, 0.28F, 0.31F};
+  shot.lighting.ambient = linear(scene.ambient.value_or(from_rgb(style.ambient)));
+  shot.lighting.rim = float(style.rim);
+  shot.lighting.flat = float(style.flat);
 }
 
 }  // namespace carom

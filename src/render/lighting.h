@@ -6,6 +6,7 @@
 #include "raster/shot.h"
 #include "render/eye.h"
 #include "scene/colors.h"
+#include "scene/look.h"
 #include "std.h"
 
 namespace carom {
@@ -19,10 +20,13 @@ struct KeyLight {
 };
 /// The light of a scene without lights: from above, left of and behind the camera, in the world's upright frame. The
 /// sun then stays high for a steep camera.
-KeyLight default_light(const CameraFrame& view);
+KeyLight default_light(SceneLook look, const CameraFrame& view);
 
 /// Tangent of half the angle under which the key light appears. It makes shadows soft.
 inline constexpr double softness = 0.03;
+
+/// How a surface reflects light. `otherwise`: the finish of one that has none.
+raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise);
 
 /// Fills the lamps of a shot, their softness and the ambient light. The first lamp is the key light, which casts
 /// shadows. One with a position has the same apparent size from the camera's target.

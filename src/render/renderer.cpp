@@ -10,6 +10,7 @@
 #include "render/last_picture.h"
 #include "render/lighting.h"
 #include "render/meshes.h"
+#include "render/mirrored.h"
 #include "render/room_edges.h"
 #include "render/strokes.h"
 #include "render/surfaces.h"
@@ -53,6 +54,7 @@ struct Renderer::Impl {
     }
 
     shot.backdrop.none = scene.transparent;
+    shot.finishes = things.finishes();
     shot.pattern.unit = float(pattern_unit(s, size));
 
     image.width = size.width, image.height = size.height;
@@ -61,7 +63,8 @@ struct Renderer::Impl {
   }
 
   void place_camera(const Eye& eye);
-  void prepare();
+  void prepare(const raster::Shot& seen);
+  void draw_images();
   void draw(const State& state, Drawing drawing);
 
   WorldNow given;
@@ -75,6 +78,7 @@ struct Renderer::Impl {
   raster::Bins bins;
   raster::LightGrid lights;
   Lines lines;
+  vector<vector<uint8_t>> images;  // of planes that mirror
   optional<Meshes> meshes;
   optional<raster::Threads> threads;
   optional<Camera> own_camera;
@@ -94,16 +98,31 @@ void Renderer::Impl::place_camera(const Eye& eye) {
 }
 
 /// Sorts the solids for the tiles and for the light, which do not depend on each other.
-void Renderer::Impl::prepare() {
+void Renderer::Impl::prepare(const raster::Shot& seen) {
   const auto part = [&](int i) {
-    if (i == 1) return lights.fill(shot);
-    silhouettes.fill(shot);
-    bins.fill(shot, silhouettes);
+    if (i == 1) return lights.fill(seen);
+    silhouettes.fill(seen);
+    bins.fill(seen, silhouettes);
   };
-  if (shot.solids.size() < worth_sharing) {
+  if (seen.solids.size() < worth_sharing) {
     part(0), part(1);
   } else {
     threads->run(2, [&](raster::TileMemory&, int i) { part(i); });
+  }
+}
+
+/// Draws what planes mirror.
+void Renderer::Impl::draw_images() {
+  size_t count = 0;
+  for (raster::Ground& ground : shot.grounds) {
+    if (!(ground.most_mirror > 0 && ground.height > 0)) continue;
+    if (images.size() <= count) images.emplace_back(4 * size_t(size.width) * size_t(size.height));
+    vector<uint8_t>& pixels = images[count++];
+
+    const raster::Shot seen = mirrored(shot, ground);
+    prepare(seen);
+    threads->draw({&seen, &silhouettes, &bins, &lights, nullptr, nullptr, pixels.data(), 4});
+    ground.image = pixels.data();
   }
 }
 
@@ -119,7 +138,8 @@ void Renderer::Impl::draw(const State& state, Drawing drawing) {
   things.place(state, drawing, eye, shot);
   if (meshes) meshes->draw(things.meshes(), eye, shot);
   if (!threads) threads.emplace(raster::drawing_threads());
-  prepare();
+  draw_images();
+  prepare(shot);
 
   lines.begin(size);
   lines.add(edges, eye);

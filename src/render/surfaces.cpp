@@ -39,6 +39,7 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
     shot.floor.present = true;
     shot.floor.normal = g.normal;
     shot.floor.height = g.height;
+    shot.floor.color = g.color;
 
     // What it sends up.
     for (size_t i = 0; i < 3; ++i) {
@@ -50,6 +51,41 @@ void find_floor(const Eye& eye, raster::Shot& shot) {
       shot.floor.sky[i] = 0.9F * g.color[i] * other;
       shot.floor.key[i] = 0.9F * g.color[i] * sent(shot.lighting.lamps[0]);
     }
+  }
+}
+
+/// What a colour in linear light becomes in the picture (toned() of light.inc).
+float toned(float x) {
+  constexpr float knee = 0.7F, w = 1 - knee;
+  return x < knee ? x : 1 - w * w / (w + x - knee);
+}
+
+/// The backdrop of the look, and how light falls off towards it. A seamless one begins as the floor ends.
+void add_backdrop(const Scene& scene, const Eye& eye, raster::Shot& shot) {
+  const LookStyle& style = style_of(scene.look);
+  raster::Pattern& pattern = shot.pattern;
+  pattern.kind = raster::PatternKind(style.pattern);
+  pattern.contrast = float(style.contrast);
+  pattern.ink = linear(from_rgb(style.ink));
+  pattern.spot = float(style.spot);
+  pattern.spot_reach = 0.6F * pattern.reach;
+
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : scene.initial.position) middle += p / double(scene.initial.position.size());
+  pattern.middle = floats(eye.point(middle));
+
+  shot.backdrop.above = linear(from_rgb(style.above));
+  shot.backdrop.horizon = linear(from_rgb(style.horizon));
+  shot.backdrop.below = linear(from_rgb(style.below));
+  shot.edges = {float(style.outline * max(1.0, eye.size.height / 720.0)), linear(from_rgb(style.ink))};
+  if (!style.seamless || !shot.floor.present) return;
+
+  for (size_t i = 0; i < 3; ++i) {
+    float light = shot.lighting.ambient[i];
+    for (const raster::Lamp& lamp : shot.lighting.lamps)
+      light += lamp.radiance[i] * (lamp.near ? 0.0F : max(raster::dot(shot.floor.normal, lamp.vector), 0.0F));
+    const float color = shot.floor.color[i] * (1 - pattern.spot), seen = toned(color * light);
+    shot.backdrop.horizon[i] = seen + shot.lighting.flat * (color - seen);
   }
 }
 
@@ -96,11 +132,15 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     g.right_offset = float(std::fmod(right.dot(eye.camera.eye), 2 * unit));
     g.up_offset = float(std::fmod(up.dot(eye.camera.eye), 2 * unit));
     g.color = linear(name.color);
+    const raster::SurfaceLight light = surface_light(name.surface, Finish::matte);
+    g.opacity = light.opacity;
+    g.least_mirror = light.least_mirror, g.most_mirror = light.most_mirror, g.tint = light.tint;
     shot.grounds.push_back(g);
   }
 
   for (raster::Ground& g : shot.grounds) g.corners = shot.grounds.size() > 1;
   find_floor(eye, shot);
+  add_backdrop(scene, eye, shot);
 }
 
 }  // namespace carom

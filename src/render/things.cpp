@@ -39,11 +39,11 @@ bool reaches(const Volume& volume, const Vec3& d) {
 
 }  // namespace
 
-Things::Things(const Scene& scene) : scene_(scene) {
+Things::Things(const Scene& scene) : scene_(scene), thickness_(scene) {
   const size_t bodies = scene.world.body_count();
   looks_.resize(bodies);
   for (const BodyRange& range : scene.roster.bodies) {
-    const Look look = look_of(range.color, range.mesh);
+    const Look look = look_of(range.color, range.mesh, range.surface);
     for (size_t i = range.first; i < range.first + size_t{range.count} && i < bodies; ++i) {
       looks_[i] = look;
       if (look.mesh) looks_[i].mesh->scale = look.mesh->scale_for(scene.world.radius[i]);
@@ -54,12 +54,22 @@ Things::Things(const Scene& scene) : scene_(scene) {
     const FixedLook& name = look_of_obstacle(scene, i);
     if (!name.visible) continue;
     obstacles_.push_back(i);
-    looks_.push_back(look_of(name.color, name.mesh));
+    looks_.push_back(look_of(name.color, name.mesh, name.surface));
   }
+
+  for (size_t i = 0; i < scene.world.walls.size(); ++i)
+    wall_finishes_.push_back(finish_of(look_of_fixed(scene, scene.world.planes.size() + i).surface));
 }
 
-Look Things::look_of(const Color& color, const optional<MeshUse>& mesh) {
-  Look look{linear(color), mesh, 0, {}};
+uint32_t Things::finish_of(const Surface& surface) {
+  const raster::SurfaceLight light = surface_light(surface, Finish::plastic);
+  const auto place = ranges::find(finishes_, light) - finishes_.begin();
+  if (size_t(place) == finishes_.size()) finishes_.push_back(light);
+  return uint32_t(place);
+}
+
+Look Things::look_of(const Color& color, const optional<MeshUse>& mesh, const Surface& surface) {
+  Look look{linear(color), mesh, 0, {}, finish_of(surface)};
   if (mesh) {
     const DrawnFile file{mesh->file, mesh->turn, mesh->own_colors};
     look.file = size_t(ranges::find(files_, file) - files_.begin());
@@ -77,6 +87,7 @@ void Things::add(const Vec3& position, const Volume& volume, double radius, cons
   solid.half = floats(volume.half);
   solid.kind = kind_of(volume.shape);
   solid.color = look.color;
+  solid.finish = look.finish;
 
   double around = radius;
   if (mesh) {
@@ -145,33 +156,53 @@ void Things::take_mean(const Look& look, raster::Shot& shot) {
   color = look.size.mean->with(color);
 }
 
-void Things::add_walls(const Eye& eye, raster::Shot& shot) const {
+void Things::add_walls(const State& state, const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
   for (size_t i = 0; i < world.walls.size(); ++i) {
     const FixedLook& name = look_of_fixed(scene_, world.planes.size() + i);
     if (!name.visible) continue;
 
     const Wall& wall = world.walls[i];
-    const double height = wall.normal.dot(eye.camera.eye - wall.center);
+    const WallDepths depths = thickness_.of(i, state);
+    const Vec3 center = wall.center + (depths.front - depths.back) / 2 * wall.normal;
+    const double half_depth = (depths.front + depths.back) / 2;
 
     raster::Solid solid;
     solid.kind = raster::SolidKind::wall;
-    solid.center = floats(eye.point(wall.center));
-    solid.radius = float(hypot(wall.half_width, wall.half_height));
-    solid.half = {float(wall.half_width), float(wall.half_height), 0};
+    solid.center = floats(eye.point(center));
+    solid.radius = float(hypot(wall.half_width, wall.half_height, half_depth));
+    solid.half = {float(wall.half_width), float(wall.half_height), float(half_depth)};
 
     solid.part = uint32_t(shot.walls.size());
-    shot.walls.push_back({floats(eye.direction(wall.right)), floats(eye.direction(wall.up)),
-                          floats(eye.direction(height < 0 ? Vec3(-wall.normal) : wall.normal))});
+    shot.walls.push_back(
+        {floats(eye.direction(wall.right)), floats(eye.direction(wall.up)), floats(eye.direction(wall.normal))});
 
     solid.color = linear(name.color);
-    solid.shadow_only = height == 0;
+    solid.finish = wall_finishes_[i];
+    const Vec3 way = eye.camera.eye - center;
+    solid.shadow_only = std::abs(wall.normal.dot(way)) <= half_depth &&
+                        std::abs(wall.right.dot(way)) <= wall.half_width &&
+                        std::abs(wall.up.dot(way)) <= wall.half_height;
     shot.solids.push_back(solid);
   }
 }
 
+void Things::add_halos(const Eye& eye, raster::Shot& shot) const {
+  for (const raster::Solid& solid : shot.solids) {
+    const float emission = finishes_[solid.finish].emission;
+    if (emission == 0 || solid.shadow_only || !(solid.center[2] > solid.radius)) continue;
+    const double per = 1 / (solid.center[2] * eye.pixel);
+    raster::Halo& halo = shot.halos.emplace_back();
+    halo.x = float(0.5 * eye.size.width + solid.center[0] * per);
+    halo.y = float(0.5 * eye.size.height - solid.center[1] * per);
+    halo.radius = float(solid.radius * per);
+    halo.depth = 1 / (solid.center[2] - solid.radius);
+    for (size_t i = 0; i < 3; ++i) halo.color[i] = emission * solid.color[i];
+  }
+}
+
 void Things::place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot) {
-  shot.solids.clear(), shot.walls.clear(), shot.meshes.clear();
+  shot.solids.clear(), shot.walls.clear(), shot.meshes.clear(), shot.halos.clear();
   meshes_.clear();
 
   const World& world = scene_.world;
@@ -201,7 +232,8 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     ++number;
   }
 
-  add_walls(eye, shot);
+  add_walls(state, eye, shot);
+  if (any_of(finishes_, [](const raster::SurfaceLight& light) { return light.emission > 0; })) add_halos(eye, shot);
 }
 
 }  // namespace carom

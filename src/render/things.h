@@ -5,6 +5,7 @@
 #include "raster/shot.h"
 #include "render/drawing.h"
 #include "render/eye.h"
+#include "render/wall_thickness.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -41,6 +42,7 @@ struct Look {
   optional<MeshUse> mesh = nullopt;
   size_t file = 0;  // of the mesh, in Things::files()
   MeshSize size;
+  uint32_t finish = 0;  // in Things::finishes()
 };
 
 /// A mesh in the picture, by the number of its solid.
@@ -75,21 +77,28 @@ class Things {
   /// left out, and a joint body has the size of the state.
   void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot);
   const vector<PlacedMesh>& meshes() const { return meshes_; }
+  /// How surfaces reflect light, without repetitions. The first is that of plastic.
+  const vector<raster::SurfaceLight>& finishes() const { return finishes_; }
 
  private:
-  Look look_of(const Color& color, const optional<MeshUse>& mesh);
+  Look look_of(const Color& color, const optional<MeshUse>& mesh, const Surface& surface);
+  uint32_t finish_of(const Surface& surface);
   void add(const Vec3& position, const Volume& volume, double radius, const Look& look, bool mesh, const Eye& eye,
            raster::Shot& shot);
   void add_shell(const Obstacle& obstacle, const Vec3& inward, const Look& look, const Eye& eye, raster::Shot& shot);
   /// Gives the last solid the mean of its mesh's own colours, for the light that it sends and where it is tiny.
   void take_mean(const Look& look, raster::Shot& shot);
-  void add_walls(const Eye& eye, raster::Shot& shot) const;
+  void add_walls(const State& state, const Eye& eye, raster::Shot& shot) const;
+  void add_halos(const Eye& eye, raster::Shot& shot) const;
 
   const Scene& scene_;
   vector<Look> looks_;          // of the bodies, then of obstacles_
   vector<uint32_t> obstacles_;  // those that are visible
   vector<DrawnFile> files_;
   vector<PlacedMesh> meshes_;
+  vector<raster::SurfaceLight> finishes_ = vector<raster::SurfaceLight>(1);
+  vector<uint32_t> wall_finishes_;  // by wall
+  WallThickness thickness_;
 };
 
 }  // namespace carom

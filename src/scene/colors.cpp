@@ -1,4 +1,4 @@
-// The names of CSS, searched by bisection. Default colours come from a palette, because random ones may be alike.
+// The names of CSS, searched by bisection.
 #include "scene/colors.h"
 
 #include <fmt/format.h>
@@ -169,9 +169,6 @@ constexpr NamedColor named_colors[] = {
 };
 // clang-format on
 
-constexpr array<uint32_t, 10> palette = {0xd1495b, 0x2e86ab, 0xedae49, 0x5b8e3e, 0x8d5fb0,
-                                         0xef7b45, 0x1b998b, 0xe38fb0, 0x7c5c3f, 0x5c7cfa};
-
 }  // namespace
 
 optional<Color> parse_color(string_view text) {
@@ -200,10 +197,6 @@ vector<string_view> color_names() {
   vector<string_view> names;
   for (const NamedColor& color : named_colors) names.push_back(color.name);
   return names;
-}
-
-Color body_color(size_t i) {
-  return from_rgb(palette[i % palette.size()]);
 }
 
 string hex_text(const Color& color) {

@@ -1,5 +1,5 @@
 #pragma once
-// Colours by name, and the default colours of bodies.
+// Colours by name.
 
 #include "std.h"
 
@@ -21,9 +21,6 @@ optional<Color> parse_color(string_view text);
 
 /// All 148 CSS names, in alphabetical order.
 vector<string_view> color_names();
-
-/// The default colour of the i-th ball, body or group. Neighbours differ clearly.
-Color body_color(size_t i);
 
 /// "#rrggbb"
 string hex_text(const Color& color);

@@ -59,10 +59,12 @@ class Bodies {
       const string_view family = family_of(body.key->text);
       if (family.empty() || family != last_family) ++things;
       last_family = family;
-      const Color chosen = body_color(things - 1);
+      const auto& palette = style_of(scene_.look).bodies;
+      const Color chosen = from_rgb(palette[(things - 1) % palette.size()]);
       const BodyColor color = keys.color.value_or(BodyColor{chosen, nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, Entity(body.count), body.group,
-                                      color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by});
+                                      color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by,
+                                      Surface{keys.finish, keys.opacity}});
 
       // A body with an error keeps its number.
       const optional<double> mass = form ? mass_of(keys, form->volume, each) : nullopt;

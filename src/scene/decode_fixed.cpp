@@ -16,9 +16,17 @@
 namespace carom {
 namespace {
 
+/// What pictures show of a thing. `rgb`: its colour in the look.
+FixedLook look_of(const string& name, const FixedKeys& keys, uint32_t rgb) {
+  return {.name = name,
+          .color = keys.color.value_or(from_rgb(rgb)),
+          .visible = keys.visible,
+          .surface = {keys.finish, keys.opacity}};
+}
+
 void add_plane(const PlaneKeys& plane, const string& name, Scene& scene) {
   scene.world.planes.push_back({plane.point, unit(plane.normal), plane.restitution});
-  scene.roster.fixed.push_back({name, plane.color, plane.visible});
+  scene.roster.fixed.push_back(look_of(name, plane, style_of(scene.look).plane));
 }
 
 string part_of(const string& name, string_view part) {
@@ -42,7 +50,9 @@ void add_room(const View& view, const string& name, Scene& scene, Diagnostics& d
     normal[axis] = side % 2 == 0 ? 1 : -1;
     const optional<Vec3>& corner = side % 2 == 0 ? room.min : room.max;
     scene.world.planes.push_back({corner.value_or(Vec3::Zero()), normal, room.restitution});
-    scene.roster.fixed.push_back({part_of(name, names[size_t(side)]), room.color, room.visible});
+    FixedLook look = look_of(part_of(name, names[size_t(side)]), room, style_of(scene.look).room);
+    if (!look.surface.finish) look.surface.finish = normal.y() > 0 ? Finish::matte : Finish::glass;
+    scene.roster.fixed.push_back(look);
   }
 }
 
@@ -64,7 +74,7 @@ void add_wall(const View& view, const string& name, Scene& scene, Diagnostics& d
   const Vec3 right = unit(up.cross(normal));
   scene.world.walls.push_back(
       {wall.center, normal, right, up, wall.size.width / 2, wall.size.height / 2, wall.restitution});
-  scene.roster.fixed.push_back({name, wall.color, wall.visible});
+  scene.roster.fixed.push_back(look_of(name, wall, style_of(scene.look).wall));
 }
 
 void add_obstacle(const View& view, const string& name, Forms& forms, Scene& scene, Diagnostics& diagnostics) {
@@ -74,7 +84,10 @@ void add_obstacle(const View& view, const string& name, Forms& forms, Scene& sce
   check_hollow_keys(view, name, diagnostics);
   for (const HollowPart& part : parts_of_obstacle(obstacle, form.volume)) {
     scene.world.obstacles.push_back(part.obstacle);
-    scene.roster.fixed.push_back({part_of(name, part.name), obstacle.color, obstacle.visible, form.mesh, part.inward});
+    FixedLook look = look_of(part_of(name, part.name), obstacle, style_of(scene.look).obstacle);
+    look.mesh = form.mesh;
+    look.inward = part.inward;
+    scene.roster.fixed.push_back(look);
   }
 }
 

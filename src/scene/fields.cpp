@@ -44,6 +44,7 @@ constexpr Field scene_fields[] = {
     row("start", "Begins with the bodies of a finished run: each body of this scene that the run has, by name, has its position and velocity there, and no impulse. All else is as this scene gives it, and time starts at 0.", "{run: ../output/first, at: 2}", {.type = Type::part, .of = "start"}),
     row("simulate", "Duration, engine and accuracy.", "{duration: 2}", {.type = Type::part, .of = "simulate", .needed = true}),
     row("camera", "Camera of the pictures. Default: {fit: motion}.", "{eye: [0, 3, -5], target: [0, 0, 0]}", {.type = Type::part, .of = "camera", .drawn = true}),
+    row("look", "Floor, backdrop, lights, colours and outlines in one word. Each part may be given by keys of its own: background, lights, color, finish.", "night", {.type = Type::choice, .initial = "studio", .of = look_names, .drawn = true}),
     row("lights", "Lights by name, and `ambient`, the colour of the ambient light.", "{sun: {direction: [1, -2, 1]}, ambient: dimgray}", {.type = Type::named, .of = "light", .drawn = true}),
     row("background", "Background colour; none: transparent, in PNG, GIF and WebP.", "skyblue", {.type = Type::color_or_none, .drawn = true}),
     row("caption", "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. A text that begins with a brace needs quotes. true: the title and the time.", "\"{title}, t = {time} s\"", {.type = Type::text_or_flag, .title = "Text in the pictures", .drawn = true}),
@@ -83,7 +84,9 @@ constexpr Field ball_velocity = row<BodyKeys, &BodyKeys::velocity>("velocity", "
 constexpr Field ball_restitution = row<BodyKeys, &BodyKeys::restitution>("restitution", "Coefficient of restitution; above 1 adds energy. Default: restitution.default.", "0.9", {.range = from_0});
 constexpr Field impulse = row_if_given<BodyKeys, &BodyKeys::impulse>("impulse", "Impulse at time 0.", "[-20, 0, 0]", {.unit = "N s"});
 constexpr Field body_color_field = row_if_given<BodyKeys, &BodyKeys::color>("color", "Colour in pictures, or colours by a quantity. Default: those of the mesh file, or one is chosen.", "crimson", {.of = "coloring", .drawn = true});
-template <typename Keys> constexpr Field color = row_if_given<Keys, &Keys::color>("color", "Colour in pictures. Default: one is chosen.", "crimson", {.drawn = true});
+template <typename Keys> constexpr Field color = row_if_given<Keys, &Keys::color>("color", "Colour in pictures. Default: that of the look.", "crimson", {.drawn = true});
+template <typename Keys> constexpr Field finish = row_if_given<Keys, &Keys::finish>("finish", "How its surface reflects light. glow: it sends out light of its colour. Default: plastic; of a plane matte; of a room glass, and its floor matte.", "metal", {.of = finish_names, .drawn = true});
+template <typename Keys> constexpr Field opacity = row_if_given<Keys, &Keys::opacity>("opacity", "Part of what is behind it that it hides. Default: 1; of glass 0.2.", "0.4", {.range = {0, 1}, .drawn = true});
 constexpr Field mesh = row<BodyKeys, &BodyKeys::mesh>("mesh", "Mesh file, drawn scaled to the ball. Without `color` it has the colours and textures of the file.", "meshes/duck.obj", {.type = Type::file_or_part, .of = "mesh", .drawn = true});
 constexpr Field ball_position = row<BodyKeys, &BodyKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true});
 
@@ -95,7 +98,7 @@ constexpr Field appear = row_if_given<BodyKeys, &BodyKeys::appear>("appear", app
 
 constexpr Field ball_fields[] = {
     mass, density, radius,
-    ball_position, ball_velocity, ball_restitution, impulse, appear, body_color_field, mesh, repeat,
+    ball_position, ball_velocity, ball_restitution, impulse, appear, body_color_field, finish<BodyKeys>, opacity<BodyKeys>, mesh, repeat,
 };
 
 constexpr string_view volumes = "radius|cylinder|box|fit";
@@ -117,7 +120,7 @@ constexpr Field mesh_fields[] = {
 
 constexpr Field body_fields[] = {
     mass, density, radius_of<BodyKeys>, cylinder<BodyKeys>, box<BodyKeys>, mesh_of<BodyKeys>, fit<BodyKeys>,
-    ball_position, ball_velocity, ball_restitution, impulse, appear, body_color_field, repeat,
+    ball_position, ball_velocity, ball_restitution, impulse, appear, body_color_field, finish<BodyKeys>, opacity<BodyKeys>, repeat,
 };
 
 constexpr Field cylinder_fields[] = {
@@ -132,7 +135,7 @@ constexpr Field radii_fields[] = {
     row<RadiiKeys, &RadiiKeys::to>("to", "The greatest radius, which none reaches.", "0.05", {.unit = "m", .range = above_0, .needed = true, .title = "Greatest radius"}),
 };
 
-constexpr Field member_fields[] = {mass, density, radius_or_radii, ball_velocity, ball_restitution, impulse, body_color_field, mesh};
+constexpr Field member_fields[] = {mass, density, radius_or_radii, ball_velocity, ball_restitution, impulse, body_color_field, finish<BodyKeys>, opacity<BodyKeys>, mesh};
 
 constexpr Field placed_fields[] = {
     row<PlacedKeys, &PlacedKeys::position>("position", "Centre at time 0.", "[3, 1, 0]", {.unit = "m", .needed = true}),
@@ -210,7 +213,7 @@ constexpr Field circle_fields[] = {
 constexpr Field plane_fields[] = {
     row<PlaneKeys, &PlaneKeys::point>("point", "Any point of the plane.", "[0, 0, 0]", {.unit = "m", .needed = true, .title = "A point of the plane"}),
     row<PlaneKeys, &PlaneKeys::normal>("normal", "Points to the free side; any length.", "[0, 1, 0]", {.type = Type::direction, .needed = true}),
-    motion, fixed_restitution<PlaneKeys>, color<PlaneKeys>, visible<PlaneKeys>, repeat,
+    motion, fixed_restitution<PlaneKeys>, color<PlaneKeys>, finish<PlaneKeys>, opacity<PlaneKeys>, visible<PlaneKeys>, repeat,
 };
 
 constexpr Field wall_fields[] = {
@@ -218,23 +221,23 @@ constexpr Field wall_fields[] = {
     row<WallKeys, &WallKeys::normal>("normal", "Perpendicular to the rectangle; any length.", "[-1, 0, 0]", {.type = Type::direction, .needed = true}),
     row<WallKeys, &WallKeys::size>("size", "Width and height.", "[2, 2]", {.unit = "m", .range = above_0, .needed = true, .title = "Width and height"}),
     row<WallKeys, &WallKeys::up>("up", "Direction of the height, made perpendicular to the normal. Default: y; z for a level wall.", "[0, 1, 0.5]", {.type = Type::direction, .title = "Direction of the height"}),
-    motion, fixed_restitution<WallKeys>, color<WallKeys>, visible<WallKeys>, repeat,
+    motion, fixed_restitution<WallKeys>, color<WallKeys>, finish<WallKeys>, opacity<WallKeys>, visible<WallKeys>, repeat,
 };
 
 constexpr Field room_fields[] = {
     row<RoomKeys, &RoomKeys::min>("min", "Lowest corner.", "[-9, -1, -9]", {.unit = "m", .needed = true, .title = "Lowest corner"}),
     row<RoomKeys, &RoomKeys::max>("max", "Highest corner.", "[9, 9, 9]", {.unit = "m", .needed = true, .title = "Highest corner"}),
-    fixed_restitution<RoomKeys>, color<RoomKeys>, visible<RoomKeys>,
+    fixed_restitution<RoomKeys>, color<RoomKeys>, finish<RoomKeys>, opacity<RoomKeys>, visible<RoomKeys>,
 };
 
-constexpr Field obstacle_color = row_if_given<ObstacleKeys, &ObstacleKeys::color>("color", "Colour in pictures. Default: those of the mesh file, or one is chosen.", "crimson", {.drawn = true});
+constexpr Field obstacle_color = row_if_given<ObstacleKeys, &ObstacleKeys::color>("color", "Colour in pictures. Default: those of the mesh file, or that of the look.", "crimson", {.drawn = true});
 
 constexpr Field obstacle_fields[] = {
     radius_of<ObstacleKeys>, cylinder<ObstacleKeys>, box<ObstacleKeys>, mesh_of<ObstacleKeys>, fit<ObstacleKeys>,
     row<ObstacleKeys, &ObstacleKeys::position>("position", "Centre.", "[-3, 1, 0]", {.unit = "m", .needed = true}),
     row_if_given<ObstacleKeys, &ObstacleKeys::inside>("inside", "Hollow: its surface alone, without thickness, for bodies inside; a tube's is tube.side, tube.bottom and tube.top, a box's box.x_min to box.z_max. Balls alone meet round ones.", "true", {.title = "Hollow"}),
     row_if_given<ObstacleKeys, &ObstacleKeys::open>("open", "Which ends a hollow one lacks. Default: none; a sphere open at the top is its lower half.", "top", {.of = "none|top|bottom|both", .title = "Open ends"}),
-    motion, fixed_restitution<ObstacleKeys>, obstacle_color, visible<ObstacleKeys>, repeat,
+    motion, fixed_restitution<ObstacleKeys>, obstacle_color, finish<ObstacleKeys>, opacity<ObstacleKeys>, visible<ObstacleKeys>, repeat,
 };
 
 constexpr Field string_fields[] = {

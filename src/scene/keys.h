@@ -10,6 +10,7 @@
 #include "physics/volume.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/look.h"
 #include "scene/overlay.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -55,6 +56,8 @@ struct BodyKeys : VolumeKeys {
   Vec3 impulse = Vec3(0, 0, 0);             // N s
   optional<double> appear;                  // s; none: it is there from the start
   optional<BodyColor> color;                // none: by its place in the file
+  optional<Finish> finish;
+  optional<double> opacity;
 };
 
 struct BoxKeys {
@@ -141,27 +144,28 @@ struct MotionKeys {
   optional<CircleKeys> circle;
 };
 
-/// What planes, rooms, walls and obstacles have in common. `rgb`: the default colour.
-template <uint32_t rgb>
+/// What planes, rooms, walls and obstacles have in common.
 struct FixedKeys {
   optional<double> restitution;  // none: the moving body's
-  Color color = from_rgb(rgb);
+  optional<Color> color;         // none: that of the look
+  optional<Finish> finish;
+  optional<double> opacity;
   bool visible = true;
 };
 
-struct PlaneKeys : FixedKeys<0xb8bcc2> {
+struct PlaneKeys : FixedKeys {
   Vec3 point = Vec3(0, 0, 0);   // m
   Vec3 normal = Vec3(0, 1, 0);  // to the free side, any length
 };
 
-struct RoomKeys : BoxKeys, FixedKeys<0xc9ccd1> {};
+struct RoomKeys : BoxKeys, FixedKeys {};
 
 struct Rectangle {
   double width = 1;   // m
   double height = 1;  // m
 };
 
-struct WallKeys : FixedKeys<0x9aa3ad> {
+struct WallKeys : FixedKeys {
   Vec3 center = Vec3(0, 0, 0);  // m
   Vec3 normal = Vec3(0, 0, 1);  // any length
   Rectangle size;
@@ -171,7 +175,7 @@ struct WallKeys : FixedKeys<0x9aa3ad> {
 /// The ends of a hollow obstacle that are missing.
 enum class Opening : uint8_t { none, top, bottom, both };
 
-struct ObstacleKeys : VolumeKeys, FixedKeys<0xa39a8c> {
+struct ObstacleKeys : VolumeKeys, FixedKeys {
   Vec3 position = Vec3(0, 0, 0);  // m
   bool inside = false;
   optional<Opening> open = Opening::none;

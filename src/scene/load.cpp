@@ -121,6 +121,7 @@ struct SceneFile::Impl {
     scene.file = path;
     const View whole(&tree, kind_named("scene"), Place{});
     scene.title = whole.text("title").value_or("");
+    if (const auto look = choice_of(whole, *find_field(whole.kind(), "look"))) scene.look = SceneLook(*look);
     scene.seed = options.seed ? *options.seed : whole.whole("seed").value_or(0);
     scene.roster.empty = empty_families(tree);
 

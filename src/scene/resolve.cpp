@@ -76,6 +76,7 @@ class Resolver {
 
     // What pictures show, and the outputs.
     camera();
+    look();
     lights();
     if (const Node* background = root_.find("background")) line("background", flow_text(*background));
     overlay();
@@ -255,6 +256,10 @@ class Resolver {
     // Near and far follow from the bodies' size, as the eye does.
     if (const auto& follow = scene_.camera->follow; follow && !follow->has_eye) overrides = {{"near", ""}, {"far", ""}};
     line("camera", flow(scene_part(root_, "camera"), overrides));
+  }
+
+  void look() {
+    if (const Node* const node = root_.find("look"); node != nullptr) line("look", flow_text(*node));
   }
 
   void lights() {

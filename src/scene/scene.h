@@ -6,6 +6,7 @@
 #include "physics/world.h"
 #include "scene/colors.h"
 #include "scene/former_state.h"
+#include "scene/look.h"
 #include "scene/mesh_turn.h"
 #include "scene/output.h"
 #include "scene/overlay.h"
@@ -53,6 +54,7 @@ struct BodyRange {
   Color color;
   optional<MeshUse> mesh = nullopt;
   optional<Coloring> coloring = nullopt;  // takes the place of `color` in pictures
+  Surface surface = {};
 
   /// The name in the file: that of the repeated thing of which this is a member, or its own.
   string_view thing() const;
@@ -66,6 +68,7 @@ struct FixedLook {
   optional<MeshUse> mesh = nullopt;  // only of an obstacle
   // Of a flat part of a hollow obstacle: unit, to the inside, from where alone it is drawn.
   Vec3 inward = Vec3::Zero();
+  Surface surface = {};
 };
 
 /// A thing with `repeat: 0`.
@@ -170,7 +173,8 @@ struct Scene {
   Roster roster;
   Simulate simulate;
   optional<CameraPlan> camera;  // none: one that frames the motion
-  vector<Light> lights;         // empty: the renderer's default lights
+  SceneLook look = SceneLook::studio;
+  vector<Light> lights;  // empty: those of the look
   optional<Color> ambient;
   optional<Color> background;
   bool transparent = false;  // there is no background

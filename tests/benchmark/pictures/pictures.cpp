@@ -111,7 +111,7 @@ string json_of(const Scene& scene) {
   const auto triple = [](const auto& v) { return nlohmann::json{v[0], v[1], v[2]}; };
   const auto color = [&](const Color& c) { return triple(linear(c)); };
   const Camera camera = camera_of(scene);
-  const KeyLight light = default_light(view_of(camera, picture));
+  const KeyLight light = default_light(scene.look, view_of(camera, picture));
 
   nlohmann::json json = {{"size", {picture.width, picture.height}},
                          {"eye", triple(camera.eye)},
