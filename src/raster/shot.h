@@ -61,11 +61,11 @@ struct Ground {
   Float3 right, up;               // unit, along it
   float right_offset, up_offset;  // m, of the eye in the pattern
   Float3 color;
-  float opacity = 1;  // over the backdrop
   bool corners;       // others meet it
+  float opacity = 1;  // over the backdrop
   // What it mirrors, as a picture of these pixels with their opacity (sRGB); null: nothing.
   const uint8_t* image = nullptr;
-  float least_mirror = 0, most_mirror = 0, tint = 0;  // as of a solid
+  float matt = 1, least_mirror = 0, most_mirror = 0, tint = 0, emission = 0;  // as of a solid
 };
 
 struct Lamp {
@@ -145,14 +145,14 @@ struct Halo {
 enum class PatternKind : int32_t { none, squares, lines };
 
 struct Pattern {
+  float unit = 1;   // m, side of the squares
+  float reach = 1;  // m, from the eye to the main content; grounds melt into the sky many times as far away
   PatternKind kind = PatternKind::squares;
   float contrast = 0.1F;
   Float3 ink{};          // of lines
   float spot = 0;        // part of its light that a ground loses far away
   Float3 middle{};       // m, from where the light falls off
   float spot_reach = 1;  // m, where half of that is lost
-  float unit = 1;        // m, side of the squares
-  float reach = 1;       // m, from the eye to the main content; grounds melt into the sky many times as far away
 };
 
 struct Shot {

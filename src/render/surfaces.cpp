@@ -60,14 +60,14 @@ float toned(float x) {
   return x < knee ? x : 1 - w * w / (w + x - knee);
 }
 
-/// The backdrop of the look, and how light falls off towards it. A seamless one begins as the floor ends.
+/// The backdrop of the look, and how light falls off towards it. A seamless one begins as a lone floor ends.
 void add_backdrop(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   const LookStyle& style = style_of(scene.look);
   raster::Pattern& pattern = shot.pattern;
   pattern.kind = raster::PatternKind(style.pattern);
   pattern.contrast = float(style.contrast);
   pattern.ink = linear(from_rgb(style.ink));
-  pattern.spot = float(style.spot);
+  pattern.spot = scene.lights.empty() ? float(style.spot) : 0;
   pattern.spot_reach = 0.6F * pattern.reach;
 
   Vec3 middle = Vec3::Zero();
@@ -78,7 +78,7 @@ void add_backdrop(const Scene& scene, const Eye& eye, raster::Shot& shot) {
   shot.backdrop.horizon = linear(from_rgb(style.horizon));
   shot.backdrop.below = linear(from_rgb(style.below));
   shot.edges = {float(style.outline * max(1.0, eye.size.height / 720.0)), linear(from_rgb(style.ink))};
-  if (!style.seamless || !shot.floor.present) return;
+  if (!style.seamless || !shot.floor.present || shot.grounds.size() > 1) return;
 
   for (size_t i = 0; i < 3; ++i) {
     float light = shot.lighting.ambient[i];
@@ -134,6 +134,7 @@ void add_surfaces(const Scene& scene, const Eye& eye, raster::Shot& shot) {
     g.color = linear(name.color);
     const raster::SurfaceLight light = surface_light(name.surface, Finish::matte);
     g.opacity = light.opacity;
+    g.matt = light.matt, g.emission = light.emission;
     g.least_mirror = light.least_mirror, g.most_mirror = light.most_mirror, g.tint = light.tint;
     shot.grounds.push_back(g);
   }

@@ -6,8 +6,11 @@
 // https://github.com/BIDS/colormap, released under CC0. cividis: Jamie R. Nunez, Christopher R. Anderton and Ryan S.
 // Renslow, "Optimizing colormaps with consideration for color vision deficiency", PLoS ONE 13(7), 2018, e0199239,
 // released under CC0.
+//
+// All of them begin nearly black, where bodies would not be seen on a dark ground: their first part is left out.
 #include "scene/color_map.h"
 
+#include "numerics/srgb.h"
 #include "std.h"
 
 namespace carom {
@@ -29,16 +32,44 @@ constexpr array<MapColors, 5> maps = {{
      0xf8850f, 0xfca50a, 0xfac62d, 0xf2e661, 0xfcffa4},
 }};
 
-}  // namespace
-
-Color color_in(ColorMap map, double at) {
+/// A colour of the published map, at 0 to 1.
+Color published(ColorMap map, double at) {
   const MapColors& points = maps[size_t(map)];
-  const double place = clamp(at, 0.0, 1.0) * double(points.size() - 1);
+  const double place = at * double(points.size() - 1);
   const size_t below = min(size_t(place), points.size() - 2);
   const double part = place - double(below);
   const Color a = from_rgb(points[below]), b = from_rgb(points[below + 1]);
   const auto between = [part](double low, double high) { return (1 - part) * low + part * high; };
   return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b)};
+}
+
+/// The contrast of a map's start to black: that of graphics which must be told from what they lie on (WCAG 2.2, 1.4.11).
+constexpr double least_contrast = 3;
+
+/// Where a map is bright enough. It becomes lighter from its start on.
+double start_of(ColorMap map) {
+  const auto contrast = [&](double at) {
+    const Color c = published(map, at);
+    return (0.2126 * light_of_srgb(c.r) + 0.7152 * light_of_srgb(c.g) + 0.0722 * light_of_srgb(c.b) + 0.05) / 0.05;
+  };
+  double dark = 0, bright = 1;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = (dark + bright) / 2;
+    (contrast(middle) < least_contrast ? dark : bright) = middle;
+  }
+  return bright;
+}
+
+}  // namespace
+
+Color color_in(ColorMap map, double at) {
+  static const auto starts = [] {
+    array<double, maps.size()> all{};
+    for (size_t i = 0; i < all.size(); ++i) all[i] = start_of(ColorMap(i));
+    return all;
+  }();
+  const double start = starts[size_t(map)];
+  return published(map, start + clamp(at, 0.0, 1.0) * (1 - start));
 }
 
 }  // namespace carom

@@ -125,6 +125,7 @@ TEST(Background, ThatIsNoneIsTransparentWhereNoSolidIs) {
 TEST(Background, OfASkyDependsOnTheHeightAlone) {
   Shot shot = shot_of(41, 40, 0.5);
   shot.backdrop.plain = false;
+  shot.backdrop.horizon = {0.6F, 0.6F, 0.6F}, shot.backdrop.above = {0.2F, 0.3F, 0.4F};
   const Drawn level = drawn(shot);
   for_each_pixel(level, [&](int x, int y, const Seen& seen) {
     EXPECT_NEAR((seen.light - level.at(40 - x, y).light).norm(), 0, 1e-6);

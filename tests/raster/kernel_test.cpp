@@ -36,7 +36,7 @@ Shot crowded(int balls, bool lamp) {
     shot.solids.push_back(s);
   }
 
-  shot.walls.push_back({{1, 0, 0}, {0, 0.8F, 0.6F}, {0, 0.6F, -0.8F}});
+  shot.walls.push_back({Float3{1, 0, 0}, Float3{0, 0.8F, 0.6F}, Float3{0, 0.6F, -0.8F}});
   shot.solids.push_back(ball({0.2F, -0.1F, 0.15F}, 0.1F));  // across the near plane
   shot.grounds.push_back({{0, 1, 0}, 1, {1, 0, 0}, {0, 0, 1}, 0.3F, 0.2F, {0.6F, 0.5F, 0.4F}, true});
   shot.grounds.push_back({{0, 0, -1}, 8, {1, 0, 0}, {0, 1, 0}, 0.3F, 0.2F, {0.4F, 0.5F, 0.4F}, true});

@@ -61,9 +61,9 @@ TEST(Layers, DoNotDependOnTheOrderOfTheList) {
 /// A wall across the left of the picture, which ends at this place of pixel 40, from 0 to 1.
 Shot with_edge(double end) {
   Shot shot = shot_of(80, 60, 0.6);
-  shot.walls = {{{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}};
+  shot.walls.push_back({Float3{1, 0, 0}, Float3{0, 1, 0}, Float3{0, 0, -1}});
   const double x = 2 * (double{shot.lens.left} + (40 - 0.5 + end) * double{shot.lens.pixel});
-  shot.solids = {solid(SolidKind::wall, {static_cast<float>(x - 2), 0, 2}, {2, 3, 0})};
+  shot.solids = {solid(SolidKind::wall, {static_cast<float>(x - 2), 0, 2.01F}, {2, 3, 0.01F})};
   return shot;
 }
 

@@ -55,9 +55,9 @@ inline Solid solid(SolidKind kind, const Float3& center, const Float3& half) {
 
 /// Of each kind that rays meet, one about this centre. Walls are the shot's first.
 inline vector<Solid> one_of_each_kind(Shot& shot, const Float3& center) {
-  shot.walls = {{{0.8F, 0, 0.6F}, {0.36F, 0.8F, -0.48F}, {0.48F, -0.6F, -0.64F}}};
+  shot.walls.push_back({Float3{0.8F, 0, 0.6F}, Float3{0.36F, 0.8F, -0.48F}, Float3{0.48F, -0.6F, -0.64F}});
   return {ball(center, 0.5F), solid(SolidKind::box, center, {0.3F, 0.4F, 0.5F}),
-          solid(SolidKind::cylinder, center, {0.3F, 0.5F, 0.3F}), solid(SolidKind::wall, center, {0.5F, 0.4F, 0})};
+          solid(SolidKind::cylinder, center, {0.3F, 0.5F, 0.3F}), solid(SolidKind::wall, center, {0.5F, 0.4F, 0.02F})};
 }
 
 struct Span {
@@ -79,20 +79,13 @@ inline optional<Span> inside(const Shot& shot, const Solid& solid, const Vec3& p
     span = disc < 0 ? Span{1, 0} : Span{std::max(span.from, (-b - root) / a), std::min(span.to, (-b + root) / a)};
   };
 
-  if (solid.kind == SolidKind::wall) {
-    const WallAxes& axes = shot.walls[solid.part];
-    const double s = -vec(axes.normal).dot(off) / vec(axes.normal).dot(d);
-    const Vec3 at = off + s * d;
-    if (std::abs(vec(axes.right).dot(at)) > half.x() || std::abs(vec(axes.up).dot(at)) > half.y()) return nullopt;
-    return Span{s, s};
-  }
-
-  const array<Vec3, 3> axes = {vec(shot.lens.axes[0]), vec(shot.lens.axes[1]), vec(shot.lens.axes[2])};
+  const array<Float3, 3>& unit_axes = axes_of(shot, solid);
+  const array<Vec3, 3> axes = {vec(unit_axes[0]), vec(unit_axes[1]), vec(unit_axes[2])};
   if (solid.kind == SolidKind::ball) within(off, d, scale * double{solid.radius});
   if (solid.kind == SolidKind::cylinder)
     within(off - axes[1].dot(off) * axes[1], d - axes[1].dot(d) * axes[1], half.x());
   for (size_t k = 0; k < 3; ++k)
-    if (solid.kind == SolidKind::box || (solid.kind == SolidKind::cylinder && k == 1))
+    if (solid.kind == SolidKind::box || solid.kind == SolidKind::wall || (solid.kind == SolidKind::cylinder && k == 1))
       between(axes[k].dot(off), axes[k].dot(d), half[static_cast<int>(k)]);
   return span.from <= span.to ? optional(span) : nullopt;
 }

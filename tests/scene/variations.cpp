@@ -168,9 +168,10 @@ planes: {floor: {point: [0, -9, 0], normal: [0, 1, 0], motion: [{from: 0.5, unti
 walls: {fence: {center: [20, 1, 0], normal: [0.1, 0.2, 0.3], up: [0, 1, 0], size: [1, 1], motion: {every: 2, windows: [{from: 0.5, until: 1, velocity: [0, 1, 0]}]}}}
 balls:
   red: {mass: 1, radius: 0.1, position: [0, 1, 0], velocity: [1, 0, 0], restitution: 0.5, impulse: [0, 1, 0],
-        color: crimson, mesh: {file: box.stl, scale: 0.001, up: z, turn: [30, 0, 0]}}
+        color: crimson, finish: metal, opacity: 0.5, mesh: {file: box.stl, scale: 0.001, up: z, turn: [30, 0, 0]}}
   blue: {density: 700, radius: 0.1, position: [1, 1, 0], color: {by: speed, min: 1, max: 16, map: magma}}
 simulate: {duration: 1, engine: exact, rest_speed: 0.1, max_collisions: 9, contact: {mode: merge, quality: fast}}
+look: night
 caption: "{title}, {time}, {run}, {collisions}, e = {restitution.default}"
 trails: {seconds: 0.5, width: 0.01, on: [red]}
 flash: true
@@ -183,7 +184,7 @@ defaults: {ball: {mass: 1, radius: 0.1, mesh: box.stl}, body: {density: 2}, obst
 balls: {red: {position: [0, 1, 0]}}
 bodies:
   can: {cylinder: {radius: 0.1, height: 1}, position: [0, 3, 0], velocity: [0, 1, 0], restitution: 1}
-  box: {mass: 1, box: [1, 1, 1], position: [3, 3, 0], impulse: [0, 1, 0], color: tan}
+  box: {mass: 1, box: [1, 1, 1], position: [3, 3, 0], impulse: [0, 1, 0], color: tan, finish: glow, opacity: 1}
   bag: {fit: sphere, mesh: box.stl, position: [6, 3, 0]}
   ball: {radius: 0.5, position: [-3, 3, 0]}
 obstacles:
@@ -206,13 +207,13 @@ bodies: {bag: {position: [0, 9, 0]}}
 groups:
   gas: {in: {min: [0, 1, 0], max: [2, 2, 2]}, arrange: lattice, speed: 1, count: 3}
   air: {in: {min: [0, 3, 0], max: [2, 4, 2]}, velocity: [1, 0, 0],
-        ball: {density: 2, radius: 0.1, velocity: [0, 1, 0], restitution: 1, impulse: [0, 0, 1], color: red, mesh: box.stl}}
+        ball: {density: 2, radius: 0.1, velocity: [0, 1, 0], restitution: 1, impulse: [0, 0, 1], color: red, finish: glass, opacity: 0.25, mesh: box.stl}}
   sand: {in: {cylinder: {radius: 1, height: 2}, position: [5, 12, 0]}, ball: {mass: 1, radius: {from: 0.05, to: 0.1}}}
   fog: {in: {radius: 2, position: [12, 12, 0]}}
-planes: {floor: {point: [0, 0, 0], restitution: 1, color: tan, visible: true}}
-walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], restitution: 1, color: tan, visible: true}}
-obstacles: {post: {color: tan}}
-room: {min: [-9, -9, -9], max: [30, 30, 30], restitution: 1, color: tan, visible: false}
+planes: {floor: {point: [0, 0, 0], restitution: 1, color: tan, finish: plastic, opacity: 1, visible: true}}
+walls: {fence: {center: [20, 1, 0], normal: [-1, 0, 0], restitution: 1, color: tan, finish: glass, opacity: 0.5, visible: true}}
+obstacles: {post: {color: tan, finish: matte, opacity: 0.5}}
+room: {min: [-9, -9, -9], max: [30, 30, 30], restitution: 1, color: tan, finish: matte, opacity: 0.5, visible: false}
 simulate: {duration: 1}
 )",
     R"(
