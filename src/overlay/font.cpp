@@ -82,7 +82,9 @@ string find_font(string_view user, string_view instead) {
 }
 
 string find_font() {
-  return find_font("text in pictures", "leave out `caption`, `arrows` and `color: {by: ...}`");
+  return find_font(
+      "text in pictures",
+      "leave out `caption`, `labels`, `scale_bar`, `arrows`, `color: {by: ...}`, and `title` and `beside` of `video`");
 }
 
 struct Font::Face {

@@ -189,9 +189,11 @@ TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
   EXPECT_NO_THROW(check_font(without));
 
   for (size_t i = 0; i < 3; ++i) setenv(names[i], kept[i].c_str(), 1);
-  EXPECT_EQ(error,
-            "text in pictures needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n  install it "
-            "(on Debian: apt install fonts-dejavu-core), or leave out `caption`, `arrows` and `color: {by: ...}`");
+  EXPECT_EQ(
+      error,
+      "text in pictures needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n  install it "
+      "(on Debian: apt install fonts-dejavu-core), or leave out `caption`, `labels`, `scale_bar`, `arrows`, `color: "
+      "{by: ...}`, and `title` and `beside` of `video`");
   EXPECT_NO_THROW(check_font(scene));
 }
 

@@ -308,5 +308,32 @@ TEST(Springs, ThatAreNotVisibleAreKnownByTheirNumber) {
             string::npos);
 }
 
+TEST(Labels, AreAListOrAMapWithNames) {
+  const Scene list = load_text(balls + "labels: [momentum, speed]\n");
+  ASSERT_TRUE(list.overlay.labels);
+  EXPECT_TRUE(list.overlay.labels->speed && list.overlay.labels->momentum && !list.overlay.labels->name);
+  EXPECT_TRUE(list.overlay.labels->on.empty());
+
+  const Scene some = load_text(balls + "labels: {show: [name], on: [blue]}\n");
+  EXPECT_EQ(some.overlay.labels->on, vector<Entity>{1});
+  EXPECT_EQ(some.overlay.labels->count(), 1);
+  EXPECT_EQ(load_text(some.resolved).overlay.labels->on, vector<Entity>{1});
+  EXPECT_FALSE(load_text(balls).overlay.labels || load_text(balls).overlay.scale_bar);
+  EXPECT_TRUE(load_text(load_text(balls + "scale_bar: true\n").resolved).overlay.scale_bar);
+
+  EXPECT_NE(errors_of(balls + "labels: [sped]\n").find("did you mean `speed`?"), string::npos);
+  EXPECT_NE(errors_of(balls + "labels: {on: [red]}\n").find("show"), string::npos);
+  EXPECT_NE(errors_of(balls + "labels: {show: [speed], on: [blu]}\n").find("did you mean `blue`?"), string::npos);
+  EXPECT_NE(errors_of(balls + "labels: true\n").find("labels"), string::npos);
+}
+
+TEST(Labels, OfMoreBodiesThanAPictureHoldsAreRefused) {
+  const string gas = "groups: {gas: {count: 50, in: {min: [5, 5, 5], max: [9, 9, 9]}, ball: {mass: 1, radius: 0.1}}}\n";
+  const string errors = errors_of(balls + gas + "labels: [speed]\noutput: {frames: true}\n");
+  EXPECT_NE(errors.find("labels of 52 bodies do not fit into a picture of 1280 x 720 pixels"), string::npos) << errors;
+  EXPECT_NE(errors.find("expected at most 41 bodies, such as `labels: {show: [speed], on: [red]}`"), string::npos);
+  EXPECT_EQ(errors_of(balls + gas + "labels: {show: [speed], on: [red, gas.3]}\n"), "");
+}
+
 }  // namespace
 }  // namespace carom
