@@ -16,6 +16,7 @@ constexpr double label_gap = 0.3;    // from the body to its label
 constexpr double label_line = 1.15;
 constexpr double outline_width = 0.14;
 const Color outline_color{0.06, 0.07, 0.09};
+constexpr double light_picture = 0.78;  // sRGB: above it labels are dark on light
 
 bool overlap(const PixelBox& a, const PixelBox& b) {
   return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height && b.top < a.top + a.height;
@@ -36,6 +37,21 @@ array<PixelBox, 8> places_around(const BodyBounds& body, int width, int height, 
   const double top = body.top - gap - height, bottom = body.bottom + gap;
   return {at(middle_x, top), at(middle_x, bottom), at(right, middle_y), at(left, middle_y),
           at(right, top),    at(left, top),        at(right, bottom),   at(left, bottom)};
+}
+
+/// Whether a picture is so light that dark letters are read better. One answer for all of its labels.
+bool is_light(const Image& image) {
+  double sum = 0;
+  size_t count = 0;
+  for (int y = 0; y < image.height; y += 4) {
+    const uint8_t* rgb = image.row(y);
+    for (int x = 0; x < image.width; x += 4, rgb += 4 * size_t(image.channels)) {
+      if (image.channels == 4 && rgb[3] < 128) continue;
+      sum += 0.3 * rgb[0] + 0.59 * rgb[1] + 0.11 * rgb[2];
+      ++count;
+    }
+  }
+  return sum > light_picture * 255 * double(count);
 }
 
 using PixelLine = pair<PixelPoint, PixelPoint>;
@@ -98,6 +114,7 @@ int MarkPainter::column_width(Size size) {
 }
 
 void MarkPainter::draw(const Marks& marks, span<const PixelBox> taken, Image& image) {
+  const bool light = !marks.labels.empty() && is_light(image);
   vector<PixelBox> full(taken.begin(), taken.end());
   if (marks.scale_bar) full.push_back(draw_bar(*marks.scale_bar, image));
   if (marks.momentum) {
@@ -124,13 +141,13 @@ void MarkPainter::draw(const Marks& marks, span<const PixelBox> taken, Image& im
 
     if (best == nullptr) continue;
     full.push_back(*best);
-    draw_label(label.lines, *best, image);
+    draw_label(label.lines, *best, light, image);
   }
 }
 
-void MarkPainter::draw_label(const vector<string>& lines, const PixelBox& box, Image& image) {
+void MarkPainter::draw_label(const vector<string>& lines, const PixelBox& box, bool light, Image& image) {
   // Room for the outline, as far as the picture has it.
-  const double wide = max(1.0, outline_width * font_.size());
+  const double wide = max(1.3, outline_width * font_.size());
   const int room = int(ceil(wide)) + 1;
   const int left = max(0, box.left - room), top = max(0, box.top - room);
   const int right = min(size_.width, box.left + box.width + room);
@@ -143,8 +160,11 @@ void MarkPainter::draw_label(const vector<string>& lines, const PixelBox& box, I
     y += label_line * font_.size();
   }
   Canvas canvas(letters.width, letters.height);
-  canvas.add(outline_of(letters, wide), outline_color);
-  canvas.add(letters, text_color);
+  // Thin strokes of small letters cover pixels in part, and their outline as a whole.
+  Coverage outline = outline_of(letters, wide);
+  for (uint8_t& value : outline.values) value = uint8_t(min(255, 2 * value));
+  canvas.add(outline, light ? text_color : outline_color);
+  canvas.add(letters, light ? outline_color : text_color);
   canvas.lay_onto(image, left, top);
 }
 

@@ -24,7 +24,8 @@ class MarkPainter {
  private:
   PixelBox draw_bar(const ScaleBar& bar, Image& image);
   PixelBox draw_sum(const MomentumSum& sum, int bottom, Image& image);
-  void draw_label(const vector<string>& lines, const PixelBox& box, Image& image);
+  /// `light`: the picture is; letters are then dark.
+  void draw_label(const vector<string>& lines, const PixelBox& box, bool light, Image& image);
 
   Size size_;
   Font font_;

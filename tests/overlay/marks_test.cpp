@@ -153,6 +153,26 @@ TEST(Labels, CoverNeitherTheirBodiesNorOneAnother) {
   EXPECT_EQ(changed, alone);
 }
 
+TEST(Labels, AreDarkOnLightPicturesAndLightOnOthers) {
+  const Scene scene = load_text(balls_scene("  red: {position: [0, 0, 0]}\n", "labels: [speed]\n"));
+  const Marks marks = marks_at_start(scene);
+  for (const int ground : {0, 128, 190, 210, 255}) {
+    Image image{picture.width, picture.height,
+                vector<uint8_t>(size_t(picture.width * picture.height * 3), uint8_t(ground))};
+    MarkPainter(picture).draw(marks, {}, image);
+    const auto [least, most] = ranges::minmax(image.pixels);
+
+    // Whole pixels of the letters, in their outline.
+    const bool dark = ground > 0.78 * 255;
+    EXPECT_LT(least, 50) << ground;  // 36
+    EXPECT_GT(most, 230) << ground;
+    int letters = 0;
+    for (size_t i = 0; i < image.pixels.size(); i += 3)
+      letters += image.pixels[i] != ground && (dark ? image.pixels[i] < 80 : image.pixels[i] > 200);
+    EXPECT_GE(letters, 10) << ground;
+  }
+}
+
 TEST(Labels, StayAwayFromOtherText) {
   const Scene scene = load_text(balls_scene("  red: {position: [0, 0, 0]}\n", "labels: [speed]\n"));
   const Marks marks = marks_at_start(scene);

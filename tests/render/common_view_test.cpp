@@ -54,6 +54,7 @@ TEST(CommonView, HasAllInViewThatEachCameraHas) {
       for (int i = 0; i < 40; ++i) {
         const double depth = 4 + 3.9 * anywhere(random);
         const double x = i < 4 ? (i & 1 ? 1 : -1) : anywhere(random), y = i < 4 ? (i & 2 ? 1 : -1) : anywhere(random);
+
         const Vec3 point =
             camera.eye + depth * (eye.view.forward + x * eye.tan_x * eye.view.right + y * eye.tan_y * eye.view.up);
         const auto [right, up] = seen_at(common, point);

@@ -264,6 +264,7 @@ TEST(TitleCard, BreaksALongTitleIntoEvenLines) {
   const Image& full = card.picture(2);
   int rows = 0;
   bool before = false;
+
   for (int y = 0; y < 360; ++y) {
     bool letters = false;
     for (int x = 0; x < 640; ++x) {

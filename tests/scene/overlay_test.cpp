@@ -257,6 +257,9 @@ TEST(ColourScale, OfSpeedEndsWithTheFastestStartOrFallRoundedUp) {
   EXPECT_EQ(scale("by: speed", ball + "}}\nplanes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n").max, 8);
   // Nothing below: 2 s of falling, |(3, -2 g, 0)| = 19.8.
   EXPECT_EQ(scale("by: speed", ball + "}}\n").max, 20);
+  // A string of 1.5 m from 1 m above ends it 0.5 m below: sqrt(9 + g) = 4.34. One that is cut does not.
+  EXPECT_EQ(scale("by: speed", ball + "}}\nstrings: {s: {from: [0, 3, 0], to: a, length: 1.5}}\n").max, 5);
+  EXPECT_EQ(scale("by: speed", ball + "}}\nstrings: {s: {from: [0, 3, 0], to: a, length: 1.5, until: 1}}\n").max, 20);
   // An obstacle with its lower side 1 m below: sqrt(9 + 2 g) = 5.35.
   EXPECT_EQ(scale("by: speed", ball + "}}\nobstacles: {o: {radius: 0.5, position: [0, 1.5, 9]}}\n").max, 6);
   EXPECT_EQ(scale("by: kinetic", still + ball + "}}\n").max, 10);  // 9 J
