@@ -19,9 +19,11 @@
 #include "files/publication.h"
 #include "files/stored_file.h"
 #include "overlay/font.h"
+#include "overlay/text_notes.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "std.h"
+#include "study/common_films.h"
 #include "study/comparison_film.h"
 #include "study/run_list.h"
 #include "study/sweep_folder.h"
@@ -88,6 +90,10 @@ class CompareSession {
       return fail("wrong", error.what(), 2);
     }
 
+    vector<string> labels;
+    for (const FilmTile& tile : tiles) labels.insert(labels.end(), tile.labels.begin(), tile.labels.end());
+    for (const string& note : text_notes("the labels of the film", labels, true)) remark(options_, note);
+
     // What is compared: the sweep's own choice, with that of the command line.
     ComparisonPlan plan = sweep ? comparison_plan(*sweep, {}) : ComparisonPlan();
     plan.own = own_measures_of(differences.runs());
@@ -153,9 +159,13 @@ class CompareSession {
 
     ComparisonFolder folder(folder_);
     unique_ptr<SideBySide> film;
-    if (options_.compare.video)
+    optional<CommonFilms> redrawn;
+    if (options_.compare.video) {
+      progress.update(0, "film");
+      redrawn.emplace(folder.place(), tiles, stop_if_interrupted);
       film = make_unique<SideBySide>(folder.place(), comparison_film_name, std::move(tiles),
                                      find_font("the text of a film", "leave --video out"));
+    }
 
     const auto files = write_comparison(
         folder.place(), plan, count, [&](size_t number) { return differences.run(number); }, watch);

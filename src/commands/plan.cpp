@@ -18,6 +18,7 @@
 #include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/publication.h"
+#include "overlay/text_notes.h"
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "run/measure.h"
@@ -93,6 +94,7 @@ LoadedScene load(SceneFile& file, const string& path, const Options& options) {
   const auto written = [&](const Output& all) { return options.only ? restricted(all, *options.only) : all; };
   scene->output = written(requested);
 
+  for (string& note : text_notes(*scene)) scene->made_from.notes.push_back(std::move(note));
   vector<string> notes = scene->made_from.notes;
   const vector<string> idle = idle_settings(options.set, *scene, [&](const vector<string>& set) {
     LoadOptions load = load_options(options, true);

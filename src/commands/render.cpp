@@ -16,6 +16,7 @@
 #include "files/manifest.h"
 #include "files/publication.h"
 #include "files/series_folders.h"
+#include "overlay/text_notes.h"
 #include "run/requirements.h"
 #include "run/stopwatch.h"
 #include "scene/motion_text.h"
@@ -97,6 +98,7 @@ class Planner {
         choose_outputs(other, *former, in_place);
         return other;
       });
+      for (string& note : text_notes(*planned.scene)) planned.notes.push_back(std::move(note));
     }
 
     planned.scene->file = former->scene.file;

@@ -13,6 +13,7 @@
 #include "commands/text.h"
 #include "compare/comparison.h"
 #include "files/processors.h"
+#include "overlay/text_notes.h"
 #include "render/mesh.h"
 #include "run/start_reader.h"
 #include "scene/grid_text.h"
@@ -209,9 +210,13 @@ void check_comparison(SweepJob& job) {
 }
 
 vector<string> notes_on_start(SweepJob& job) {
-  if (!may_read_files(job.sweep(), job.base_text())) return {};
+  const bool is_ascii = all_of(job.base_text(), [](char c) { return static_cast<unsigned char>(c) < 0x80; });
+  if (is_ascii && !may_read_files(job.sweep(), job.base_text())) return {};
   const optional<Scene> first = first_valid(job);
-  return first ? first->made_from.notes : vector<string>();
+  if (!first) return {};
+  vector<string> notes = first->made_from.notes;
+  for (string& note : text_notes(*first)) notes.push_back(std::move(note));
+  return notes;
 }
 
 Shard shard_of(const Options& options) {

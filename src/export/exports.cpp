@@ -240,6 +240,15 @@ void Exports::picture(size_t stream, const Image& image, bool again) {
   impl_->pictures += use.frames || use.film;
 }
 
+bool Exports::begins_with_title(size_t stream) const {
+  return impl_->plan.uses[stream].film && impl_->film->frames() == 0 && impl_->scene.output.video->title;
+}
+
+void Exports::title_picture(const Image& image) {
+  impl_->film->add(image);
+  ++impl_->pictures;
+}
+
 uint64_t Exports::frames() const {
   return impl_->pictures;
 }

@@ -69,6 +69,10 @@ class Exports {
   /// Copies the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
   /// Other threads encode and write it. An error of theirs is thrown by a later call, or by finish().
   void picture(size_t stream, const Image& image, bool again = false);
+  /// Whether the picture that is due for pictures()[stream] is the film's first, and a title card comes before it.
+  bool begins_with_title(size_t stream) const;
+  /// Takes a picture of the title card.
+  void title_picture(const Image& image);
   /// The pictures taken so far for frames and video. Those of the sheet do not count. Any thread may ask.
   uint64_t frames() const;
 

@@ -8,6 +8,7 @@
 #include "numerics/whole.h"
 #include "physics/world.h"
 #include "scene/film_format.h"
+#include "scene/film_layout.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -103,13 +104,14 @@ Forecast forecast(const Scene& scene) {
   for (size_t i = 0; i < plan.streams.size(); ++i) {
     const auto count = double(plan.ticks[i].count());
     const double area = pixels(plan.streams[i].size);
-    frames += count;
+    const double cards = plan.uses[i].film ? double(title_pictures(*output.video)) : 0;
+    frames += count + cards;
 
     if (count > 0) seconds += first_picture_s + count * area * (pixel_s + sample_s * plan.streams[i].samples);
     if (plan.uses[i].frames) seconds += count * area * png_pixel_s;
-    if (plan.uses[i].film) seconds += count * area * film_pixel_s;
+    if (plan.uses[i].film) seconds += (count + cards) * area * film_pixel_s;
     if (plan.uses[i].frames || plan.uses[i].sheet) bytes += count * png_bytes(area, bodies);
-    if (plan.uses[i].film) bytes += count * film_bytes(*output.video, area, bodies);
+    if (plan.uses[i].film) bytes += (count + cards) * film_bytes(*output.video, area, bodies);
   }
   return {whole(rows), whole(frames), whole(bytes), seconds};
 }

@@ -5,6 +5,7 @@
 #include "export/sheet.h"
 #include "files/export_error.h"
 #include "scene/film_format.h"
+#include "scene/film_layout.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -51,8 +52,8 @@ bool shows_film(const Scene& scene, const PictureStream& frames, const Ticks& of
   const VideoOutput& video = *scene.output.video;
   const bool same_flashes = !scene.overlay.flash || frames.speed == video.speed;
   const bool same_blur = scene.overlay.shutter == 0 || frames.interval == video.speed / video.fps;
-  return frames.size == video.size && frames.samples == video.samples && of_frames.has_times_of(of_film) &&
-         same_flashes && same_blur;
+  return !video.chart && frames.size == video.size && frames.samples == video.samples &&
+         of_frames.has_times_of(of_film) && same_flashes && same_blur;
 }
 
 }  // namespace
@@ -102,9 +103,10 @@ PictureStreams plan_pictures(const Scene& scene) {
 
     // Frames and film share pictures that are the same.
     if (plan.streams.empty() || !shows_film(scene, plan.streams.front(), plan.ticks.front(), ticks))
-      add(plan, video->size, *video, video->speed, ticks, {false, true, false});
+      add(plan, layout_of(*video).picture, *video, video->speed, ticks, {false, true, false});
     else
       plan.uses.front().film = true;
+    if (video->chart) plan.streams.back().charted = true;
   }
 
   if (output.sheet) {

@@ -17,6 +17,7 @@ struct PictureStream {
   double interval = 1.0 / 30;  // s, simulated, from picture to picture of a film
   double speed = 1;            // simulated seconds a second of a film
   int decimals = 3;            // with which times of pictures are written
+  bool charted = false;        // the pictures are those of a film, with a chart beside them
 };
 
 /// The uses of one PictureStream.

@@ -119,7 +119,8 @@ SideBySide::SideBySide(const FilePlace& place, const string& name, vector<FilmTi
   for (const FilmTile& tile : tiles_) {
     const Descriptor folder = open_folder(AT_FDCWD, tile.folder, true);
     if (!folder) fail("open", {-1, tile.folder}, "");
-    facts_.push_back(film_facts(tools_, {folder.get(), tile.folder}, tile.file));
+    FilmFacts& facts = facts_.emplace_back(film_facts(tools_, {folder.get(), tile.folder}, tile.file));
+    facts.frames -= min(facts.frames, tile.before);
   }
 }
 
@@ -146,6 +147,7 @@ void SideBySide::complete() {
     input.insert(input.end(),
                  {"-i", "file:" + absolute((std::filesystem::path(tiles_[k].folder) / tiles_[k].file).string())});
     graph += fmt::format("[{}:v]", k);
+    if (tiles_[k].before > 0) graph += fmt::format("trim=start_frame={},setpts=PTS-STARTPTS,", tiles_[k].before);
 
     // Other films are in these colours already.
     if (film_format(tiles_[k].file) == FilmFormat::gif)

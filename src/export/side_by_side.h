@@ -11,6 +11,7 @@ struct FilmTile {
   double from = 0;        // s, the simulated time of its first frame
   vector<string> labels;  // lines
   double speed = 1;       // seconds of motion a second of film; the same of all tiles
+  uint64_t before = 0;    // pictures of a title card, which are left out
 };
 
 /// The maximum number of films in one.

@@ -8,6 +8,9 @@
 
 namespace carom {
 
+/// The colour of text in pictures.
+inline constexpr Color text_color{1, 1, 1};
+
 /// Colours are blended as they are encoded (sRGB), as text on screens is.
 class Canvas {
  public:

@@ -33,6 +33,7 @@ DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size
       flash_(flash_length * speed),
       colors_(scene),
       arrows_(arrow_scales(scene)),
+      scales_(mark_scales(scene)),
       strokes_(scene.overlay.trails || !arrows_.empty() || has_springs(scene.world) || has_strings(scene)) {}
 
 Drawing DrawingMaker::at(const State& state, const Camera& camera) {
@@ -47,6 +48,10 @@ Drawing DrawingMaker::at(const State& state, const Camera& camera) {
   add_strings(moment, drawing.strokes);
   add_arrows(moment, arrows_, drawing.strokes);
   return drawing;
+}
+
+Marks DrawingMaker::marks(const State& state, const Camera& camera) {
+  return marks_of({scene_, world_.at(state.fired), state, history_, colors_, Eye(camera, size_)}, scales_);
 }
 
 vector<float> DrawingMaker::glow(double time) const {

@@ -4,6 +4,7 @@
 #include "overlay/arrows.h"
 #include "overlay/body_colors.h"
 #include "overlay/history.h"
+#include "overlay/marks.h"
 #include "physics/world_now.h"
 #include "render/drawing.h"
 #include "scene/output.h"
@@ -22,6 +23,8 @@ class DrawingMaker {
 
   /// `state`: at the time that `history` has reached. `camera`: that of its picture.
   Drawing at(const State& state, const Camera& camera);
+  /// What is written onto that picture.
+  Marks marks(const State& state, const Camera& camera);
 
  private:
   vector<float> glow(double time) const;
@@ -33,6 +36,7 @@ class DrawingMaker {
   double flash_;  // s, simulated
   BodyColors colors_;
   vector<ArrowScale> arrows_;
+  MarkScales scales_;
   bool strokes_;  // whether there may be any
 };
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <tuple>
 
 #include "render/render_error.h"
 #include "std.h"
@@ -52,16 +53,53 @@ string found_in(const fs::path& folder) {
   return {};
 }
 
-/// The characters of UTF-8. Bytes that are not part of one are left out.
+/// Whether a character is never seen: marks of direction, joiners and selectors of variants.
+bool is_unseen(char32_t code) {
+  return (code >= 0x200b && code <= 0x200f) || (code >= 0x202a && code <= 0x202e) ||
+         (code >= 0x2060 && code <= 0x2064) || (code >= 0xfe00 && code <= 0xfe0f) || code == 0xfeff;
+}
+
+/// The characters of UTF-8 that are seen. Bytes that are not part of one are left out.
 vector<char32_t> characters(string_view text) {
   vector<char32_t> codes;
   for (size_t i = 0; i < text.size();) {
     char32_t code = 0;
     const int length = utf8_length(text, i, code);
-    if (length > 0) codes.push_back(code);
+    if (length > 0 && !is_unseen(code)) codes.push_back(code);
     i += size_t(max(length, 1));
   }
   return codes;
+}
+
+/// Upright sans serif before all else, of the families with the most letters.
+int rank_of(const string& name) {
+  const auto has = [&](const char* part) { return name.find(part) != string::npos; };
+  const bool plain = !has("Bold") && !has("Italic") && !has("Oblique") && !has("Mono") && !has("Serif");
+  if (name.starts_with("NotoSans") && plain) return 0;
+  if (name.starts_with("DroidSansFallback") || name.starts_with("Symbola")) return 1;
+  return plain ? 2 : 3;
+}
+
+/// All other fonts of the system, in the order in which letters are sought in them.
+vector<fs::path> other_fonts() {
+  vector<fs::path> files;
+  for (const fs::path& folder : font_folders()) {
+    std::error_code error;
+    fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
+    for (; !error && entry != end; entry.increment(error)) {
+      const string ending = entry->path().extension().string();
+      const bool is_font = ending == ".ttf" || ending == ".otf" || ending == ".ttc";
+      if (is_font && entry->path().filename() != font_file && entry->is_regular_file(error))
+        files.push_back(entry->path());
+      if (entry.depth() >= deepest) entry.disable_recursion_pending();
+    }
+  }
+
+  ranges::sort(files, {}, [](const fs::path& file) {
+    const string name = file.filename().string();
+    return std::tuple(rank_of(name), name, file.string());
+  });
+  return files;
 }
 
 double pixels(FT_Pos units) {
@@ -82,17 +120,47 @@ string find_font(string_view user, string_view instead) {
 }
 
 string find_font() {
-  return find_font("text in pictures", "leave out `caption`, `arrows` and `color: {by: ...}`");
+  return find_font(
+      "text in pictures",
+      "leave out `caption`, `labels`, `scale_bar`, `arrows`, `color: {by: ...}`, and `title` and `beside` of `video`");
 }
 
+/// DejaVu Sans, and the other fonts that letters were found in.
 struct Font::Face {
   Face() = default;
   ~Face() {
+    for (FT_Face other : others) FT_Done_Face(other);
     if (face != nullptr) FT_Done_Face(face);
     if (library != nullptr) FT_Done_FreeType(library);
   }
   Face(const Face&) = delete;
   Face& operator=(const Face&) = delete;
+
+  /// The face that has a letter; null: none has it.
+  FT_Face with(char32_t code) const {
+    if (FT_Get_Char_Index(face, code) != 0) return face;
+    const auto known = found.find(code);
+    return known != found.end() ? known->second : found[code] = sought(code);
+  }
+
+  FT_Face sought(char32_t code) const {
+    for (FT_Face other : others)
+      if (FT_Get_Char_Index(other, code) != 0) return other;
+    if (!files) files = other_fonts();
+    for (const fs::path& file : *files) {
+      FT_Face other = nullptr;
+      if (FT_New_Face(library, file.c_str(), 0, &other) != 0) continue;
+      // Fonts of fixed sizes, such as coloured emoji, have no outlines.
+      if (FT_IS_SCALABLE(other) && FT_Get_Char_Index(other, code) != 0 && set_size(other)) {
+        others.push_back(other);
+        return other;
+      }
+      FT_Done_Face(other);
+    }
+    return nullptr;
+  }
+
+  bool set_size(FT_Face of) const { return FT_Set_Char_Size(of, 0, std::lround(size * 64), 72, 72) == 0; }
 
   /// Calls `use` with each glyph, unhinted, and the place of its origin in pixels from the start of the text.
   /// Returns the width of the text.
@@ -100,23 +168,30 @@ struct Font::Face {
   double each_glyph(string_view text, const Use& use) const {
     double x = 0;
     FT_UInt before = 0;
+    FT_Face face_before = nullptr;
     for (const char32_t code : characters(text)) {
-      const FT_UInt glyph = FT_Get_Char_Index(face, code);
+      FT_Face const its = with(code) != nullptr ? with(code) : face;
+      const FT_UInt glyph = FT_Get_Char_Index(its, code);
       FT_Vector kerning{};
-      if (before != 0 && FT_Get_Kerning(face, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
+      if (before != 0 && its == face_before && FT_Get_Kerning(its, before, glyph, FT_KERNING_UNFITTED, &kerning) == 0)
         x += pixels(kerning.x);
 
-      if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) continue;
-      use(face->glyph, x);
+      if (FT_Load_Glyph(its, glyph, FT_LOAD_NO_HINTING | FT_LOAD_NO_BITMAP) != 0) continue;
+      use(its->glyph, x);
       // 16.16
-      x += double(face->glyph->linearHoriAdvance) / 65536;
+      x += double(its->glyph->linearHoriAdvance) / 65536;
       before = glyph;
+      face_before = its;
     }
     return x;
   }
 
   FT_Library library = nullptr;
   FT_Face face = nullptr;
+  double size = 0;  // pixels
+  mutable vector<FT_Face> others;
+  mutable map<char32_t, FT_Face> found;      // null: no font has the letter
+  mutable optional<vector<fs::path>> files;  // none: no letter was sought yet
 };
 
 Font::Font(const string& file, double size) : face_(make_unique<Face>()) {
@@ -126,7 +201,10 @@ Font::Font(const string& file, double size) : face_(make_unique<Face>()) {
 }
 
 void Font::resize(double size) {
-  if (FT_Set_Char_Size(face_->face, 0, std::lround(size * 64), 72, 72) != 0)
+  face_->size = size;
+  bool good = face_->set_size(face_->face);
+  for (FT_Face other : face_->others) good = face_->set_size(other) && good;
+  if (!good)
     throw RenderError(fmt::format("the font has no letters of {} pixels: install fonts-dejavu-core again", size));
   size_ = size;
 }
@@ -143,6 +221,15 @@ double Font::descent() const {
 
 double Font::width(string_view text) const {
   return face_->each_glyph(text, [](FT_GlyphSlot, double) {});
+}
+
+std::u32string Font::lacking(string_view text, bool alone) const {
+  std::u32string letters;
+  for (const char32_t code : characters(text))
+    if ((alone ? FT_Get_Char_Index(face_->face, code) == 0 : face_->with(code) == nullptr) &&
+        letters.find(code) == std::u32string::npos)
+      letters += code;
+  return letters;
 }
 
 void Font::draw(string_view text, double x, double y, Coverage& to) const {

@@ -1,5 +1,7 @@
 #pragma once
-// Text as coverage of pixels, by FreeType, in the typeface DejaVu Sans.
+// Text as coverage of pixels, by FreeType, in the typeface DejaVu Sans. Letters that it lacks come from another font of
+// the system, the first in a fixed order that has them. Each letter stands alone, from left to right: scripts that join
+// letters or run from right to left would need a shaper, which is a library of its own (text_notes.h warns of them).
 
 #include "std.h"
 
@@ -37,6 +39,8 @@ class Font {
   double descent() const;
   double line() const { return 1.2 * (ascent() + descent()); }  // pixels from line to line
   double width(string_view text) const;                         // pixels; text: UTF-8
+  /// The letters of the text that no font has, each once. They are drawn as boxes. `alone`: that DejaVu Sans lacks.
+  std::u32string lacking(string_view text, bool alone = false) const;
   /// Adds the text. Its base line starts at (x, y), in pixels from the upper left corner. What lies outside is left
   /// out.
   void draw(string_view text, double x, double y, Coverage& to) const;

@@ -16,7 +16,10 @@ double letters_of(Size size) {
 }
 
 bool has_text(const Scene& scene) {
-  return !scene.overlay.caption.empty() || !legends_of(scene).empty();
+  const Overlay& overlay = scene.overlay;
+  const optional<VideoOutput>& video = scene.output.video;
+  return !overlay.caption.empty() || overlay.labels || overlay.scale_bar || (video && (video->title || video->chart)) ||
+         !legends_of(scene).empty();
 }
 
 }  // namespace
@@ -28,10 +31,13 @@ void check_font(const Scene& scene) {
 Inscription::Inscription(const Scene& scene, Size size)
     : scene_(scene), size_(size), margin_(int(0.4 * letters_of(size))), captioned_(!scene.overlay.caption.empty()) {
   const vector<Legend> legends = legends_of(scene);
+  if (has_marks(scene)) painter_ = make_unique<MarkPainter>(size);
   if (!captioned_ && legends.empty()) return;
   font_ = make_unique<Font>(find_font());
   if (legends.empty()) return;
-  legends_ = make_unique<LegendBlock>(*font_, legends, legend_letters * letters_of(size), size.width - 2 * margin_,
+  const bool corner = scene.overlay.scale_bar || scene.overlay.momentum_arrows;
+  const int width = size.width - 2 * margin_ - (corner ? MarkPainter::column_width(size) : 0);
+  legends_ = make_unique<LegendBlock>(*font_, legends, legend_letters * letters_of(size), width,
                                       int(legend_part * size.height) - margin_);
   if (legends_->canvas() == nullptr) legends_.reset();
 }
@@ -40,7 +46,8 @@ int Inscription::legends_top() const {
   return size_.height - margin_ - legends_->canvas()->height();
 }
 
-void Inscription::write(const CaptionValues& values, Image& image) {
+void Inscription::write(const CaptionValues& values, Image& image, const Marks& marks) {
+  vector<PixelBox> taken;
   if (captioned_) {
     string text = caption_text(scene_.overlay.caption, values);
     if (caption_ == nullptr || text != text_) {
@@ -48,9 +55,18 @@ void Inscription::write(const CaptionValues& values, Image& image) {
       caption_ = make_unique<TextBlock>(*font_, text_, letters_of(size_), size_.width - 2 * margin_,
                                         int(caption_part * size_.height) - margin_);
     }
-    if (caption_->canvas() != nullptr) caption_->canvas()->lay_onto(image, margin_, margin_);
+    if (const Canvas* canvas = caption_->canvas()) {
+      canvas->lay_onto(image, margin_, margin_);
+      taken.push_back({margin_, margin_, canvas->width(), canvas->height()});
+    }
   }
-  if (legends_ != nullptr) legends_->canvas()->lay_onto(image, margin_, legends_top());
+
+  if (legends_ != nullptr) {
+    const Canvas& canvas = *legends_->canvas();
+    canvas.lay_onto(image, margin_, legends_top());
+    taken.push_back({margin_, legends_top(), canvas.width(), canvas.height()});
+  }
+  if (painter_ != nullptr) painter_->draw(marks, taken, image);
 }
 
 }  // namespace carom

@@ -1,7 +1,8 @@
 #pragma once
-// The text of the pictures of one size: a caption at the upper left, and legends at the lower left.
+// The text of the pictures of one size: a caption at the upper left, legends at the lower left, and marks (marks.h).
 
 #include "overlay/legend_block.h"
+#include "overlay/mark_painter.h"
 #include "overlay/text_block.h"
 #include "render/image.h"
 #include "scene/caption.h"
@@ -21,9 +22,9 @@ class Inscription {
   /// that, and less where the text would not fit. Throws RenderError.
   Inscription(const Scene& scene, Size size);
 
-  bool any() const { return captioned_ || legends_ != nullptr; }
+  bool any() const { return captioned_ || legends_ != nullptr || painter_ != nullptr; }
   /// Writes onto a picture of this size.
-  void write(const CaptionValues& values, Image& image);
+  void write(const CaptionValues& values, Image& image, const Marks& marks = {});
 
   /// Pixels from the upper left corner of the picture.
   int margin() const { return margin_; }
@@ -39,6 +40,7 @@ class Inscription {
   string text_;                    // of the caption below
   unique_ptr<TextBlock> caption_;  // of the last picture
   unique_ptr<LegendBlock> legends_;
+  unique_ptr<MarkPainter> painter_;  // null: the scene has no marks
 };
 
 }  // namespace carom

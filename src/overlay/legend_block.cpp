@@ -10,7 +10,6 @@ namespace {
 constexpr double strip_width = 9, strip_height = 0.7;  // of the size of letters
 constexpr double swatch = 0.75;                        // of the size of letters
 constexpr double shrink = 0.9;
-const Color white{1, 1, 1};
 
 /// The pen moves down the block. Without a canvas it only measures.
 class LegendPen {
@@ -27,7 +26,7 @@ class LegendPen {
       if (legend.entries.empty()) strip(legend);
       for (const Legend::Entry& entry : legend.entries) item(entry);
     }
-    if (coverage_) canvas_->add(*coverage_, white);
+    if (coverage_) canvas_->add(*coverage_, text_color);
   }
 
   double width() const { return width_; }  // pixels, from the left edge

@@ -9,7 +9,6 @@ namespace carom {
 namespace {
 
 constexpr double shrink = 0.9;
-const Color white{1, 1, 1};
 
 unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double padding) {
   double width = 0;
@@ -25,7 +24,7 @@ unique_ptr<Canvas> drawn(const Font& font, const vector<string>& lines, double p
   }
 
   canvas->add_plate(padding);
-  canvas->add(coverage, white);
+  canvas->add(coverage, text_color);
   return canvas;
 }
 

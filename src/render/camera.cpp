@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "scene/film_layout.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -36,7 +37,7 @@ double distance_to_quad(const Vec3& p, span<const Vec3, 4> q) {
 
 Size picture_size(const Output& output) {
   if (output.frames) return output.frames->size;
-  if (output.video) return output.video->size;
+  if (output.video) return layout_of(*output.video).picture;
   return {};
 }
 

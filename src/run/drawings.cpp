@@ -18,6 +18,15 @@ vector<MovingCamera*> Drawings::framing_cameras() {
   return framing;
 }
 
+vector<FilmChart*> Drawings::charts() {
+  vector<FilmChart*> charts;
+  for (const Stages::Standing& each : stages_.standing()) {
+    if (!each.stage->drawings) continue;
+    for (FilmChart* chart : each.stage->drawings->charts()) charts.push_back(chart);
+  }
+  return charts;
+}
+
 void Drawings::follow(RecordQueue& queue) {
   const auto next = [&queue](Recorded& recorded) { return queue.next(recorded); };
   try {
@@ -31,9 +40,10 @@ void Drawings::follow(RecordQueue& queue) {
   queue.leave();
 }
 
-void Drawings::draw(const MakeMotion& motion, bool framed) {
+void Drawings::draw(const MakeMotion& motion, bool surveyed) {
   const vector<MovingCamera*> cameras = framing_cameras();
-  if (!framed && !cameras.empty()) survey(cameras, *motion(), stop_check_);
+  const vector<FilmChart*> its_charts = charts();
+  if (!surveyed && !(cameras.empty() && its_charts.empty())) survey(cameras, *motion(), stop_check_, its_charts);
   draw_all(motion);
 }
 

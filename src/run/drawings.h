@@ -19,10 +19,12 @@ class Drawings {
 
   /// The cameras that frame the motion.
   vector<MovingCamera*> framing_cameras();
+  /// The charts beside films, which need the motion, too.
+  vector<FilmChart*> charts();
   /// Draws the motion whose record comes through the queue.
   void follow(RecordQueue& queue);
-  /// Draws by recorded motions. `framed`: the cameras that frame the motion have been given it.
-  void draw(const MakeMotion& motion, bool framed);
+  /// Draws by recorded motions. `surveyed`: cameras and charts have been given the motion.
+  void draw(const MakeMotion& motion, bool surveyed);
   /// Ends the outputs that are drawn.
   void end(const Tally& tally);
 

@@ -25,7 +25,9 @@ PictureSeries::PictureSeries(const Scene& scene, const PictureStream& stream, co
       history_(history),
       run_(std::move(run)),
       camera_(scene, stream.size),
-      shutter_(scene.overlay.shutter * stream.interval) {}
+      shutter_(scene.overlay.shutter * stream.interval) {
+  if (stream.charted) chart_ = make_unique<FilmChart>(scene);
+}
 
 void PictureSeries::aim(optional<double> picture) {
   if (shutter_.is_used() && picture) shutter_.aim(*picture);
@@ -63,10 +65,11 @@ const Image& PictureSeries::picture(const State& state, const Tally& tally) {
   const bool several = exposed_ > 0;
   const Image& image = light(state);
   const uint64_t drawn = renderer_->drawn();
-  repeated_ = alone_ && !several && drawn == shown_;
+  repeated_ = alone_ && !several && drawn == shown_ && !chart_;
   alone_ = !several;
   shown_ = drawn;
-  return with_text(image, state, tally);
+  const Image& written = with_text(image, state, tally);
+  return chart_ ? chart_->beside(written, state) : written;
 }
 
 const Image& PictureSeries::with_text(const Image& image, const State& state, const Tally& tally) {
@@ -75,11 +78,15 @@ const Image& PictureSeries::with_text(const Image& image, const State& state, co
   CaptionValues values{scene_.title, fmt::format("{:.{}f}", state.time, stream_.decimals), run_,
                        to_string(tally.collisions())};
   const auto text = [&](const CaptionValues& its) { return caption_text(scene_.overlay.caption, its); };
-  repeated_ = repeated_ && text(values) == text(values_);
+
+  Marks marks;
+  if (has_marks(scene_)) marks = maker_->marks(state, camera_.at(state));
+  repeated_ = repeated_ && text(values) == text(values_) && marks == marks_;
   values_ = std::move(values);
+  marks_ = std::move(marks);
   if (repeated_) return image_;
   image_ = image;
-  inscription_->write(values_, image_);
+  inscription_->write(values_, image_, marks_);
   return image_;
 }
 

@@ -10,6 +10,7 @@
 #include "physics/tally.h"
 #include "render/moving_camera.h"
 #include "render/renderer.h"
+#include "run/film_chart.h"
 #include "std.h"
 
 namespace carom {
@@ -20,6 +21,9 @@ class PictureSeries {
   PictureSeries(const Scene& scene, const PictureStream& stream, const History& history, string run);
 
   MovingCamera& camera() { return camera_; }
+  /// The chart beside the pictures, which must have been given the motion before the first of them. Null: there is
+  /// none.
+  FilmChart* chart() { return chart_.get(); }
 
   /// Sets the time (s) of the next picture, also repeatedly. None: there is no further one.
   void aim(optional<double> picture);
@@ -42,6 +46,7 @@ class PictureSeries {
   const History& history_;
   string run_;
   MovingCamera camera_;
+  unique_ptr<FilmChart> chart_;  // null: there is none
   Shutter shutter_;
   // Made for the first picture. A scene without pictures needs no renderer and reads no mesh.
   unique_ptr<Renderer> renderer_;
@@ -51,6 +56,7 @@ class PictureSeries {
   int exposed_ = 0;  // instants of the picture in the making
   Image image_;      // with text
   CaptionValues values_;
+  Marks marks_;
   // The drawings of the renderer that the last picture shows, and whether it is of one alone.
   uint64_t shown_ = 0;
   bool alone_ = false, repeated_ = false;

@@ -180,27 +180,33 @@ class Run {
     record_->keep_whole();
     vector<MotionSink*> sinks;
 
-    // Where the end is not awaited, the instants of the pictures are known, and cameras frame them on the way.
+    // Where the end is not awaited, the instants of the pictures are known, and cameras and charts take them on the
+    // way.
     optional<Framing> framing;
+    optional<Charting> charting;
     if (!may_stop(scene_) && !checkpoints_.goes_on()) {
       stages_.begin_drawings();
       framing.emplace(drawings_.framing_cameras());
+      charting.emplace(drawings_.charts());
       if (framing->any()) sinks.push_back(&*framing);
+      if (charting->any()) sinks.push_back(&*charting);
     }
 
     simulate(sinks);
     if (framing) framing->finish();
+    if (charting) charting->finish();
     stages_.take_end(tally().end);
     const auto motion = [this] {
       return replay_from(make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
     };
-    draw_by(motion, framing && framing->any());
+    draw_by(motion, framing.has_value());
   }
 
-  /// Draws by recorded motions, on a thread of its own if there is one. framed: cameras have been given the motion.
-  void draw_by(const MakeMotion& motion, bool framed) {
+  /// Draws by recorded motions, on a thread of its own if there is one. surveyed: cameras and charts have been given
+  /// the motion.
+  void draw_by(const MakeMotion& motion, bool surveyed) {
     stages_.begin_drawings();
-    const auto draw = [&] { drawings_.draw(motion, framed); };
+    const auto draw = [&] { drawings_.draw(motion, surveyed); };
     DrawingThread drawing(draw);
     if (drawing.is_there())
       drawing.wait([this] { watch_while_drawing(); });

@@ -4,10 +4,12 @@
 #include "run/stage.h"
 
 #include "files/folder_writer.h"
+#include "overlay/title_card.h"
 #include "render/camera.h"
 #include "render/glb.h"
 #include "render/still_things.h"
 #include "run/stopwatch.h"
+#include "scene/film_layout.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -98,6 +100,13 @@ vector<MovingCamera*> DrawingSink::cameras() {
   return cameras;
 }
 
+vector<FilmChart*> DrawingSink::charts() {
+  vector<FilmChart*> charts;
+  for (PictureSeries& series : series_)
+    if (FilmChart* chart = series.chart()) charts.push_back(chart);
+  return charts;
+}
+
 void DrawingSink::sample(Simulator& simulator) {
   const double time = simulator.time();
   const bool on_timeline = part().timeline().time() <= time;
@@ -136,8 +145,17 @@ void DrawingSink::draw(size_t stream, Simulator& simulator) {
     const Stopwatch stopwatch(render_s_);
     image = &series_[stream].picture(simulator.state(), simulator.tally());
   }
+  if (exports_.begins_with_title(stream)) begin_with_title(*image);
   const Stopwatch stopwatch(export_s_);
   exports_.picture(stream, *image, series_[stream].is_repeated());
+}
+
+void DrawingSink::begin_with_title(const Image& first) {
+  const Stopwatch stopwatch(render_s_);
+  const VideoOutput& video = *scene_.output.video;
+  TitleCard card(scene_.title, first);
+  for (int64_t left = title_pictures(video); left > 0; --left)
+    exports_.title_picture(card.picture(double(left) / video.fps));
 }
 
 Stage::Stage(const Show& show, Durability durability, vector<Measure> measures, function<string()> request)

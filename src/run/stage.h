@@ -61,6 +61,9 @@ class DrawingSink final : public MotionSink {
   /// The cameras of what is drawn. Those that frame the motion must have been given it before the first sample.
   vector<MovingCamera*> cameras();
 
+  /// The charts beside pictures, for which the same holds.
+  vector<FilmChart*> charts();
+
   bool more() const override { return more_; }
   double time() override;
   void record(const Simulator& simulator) override;
@@ -77,6 +80,7 @@ class DrawingSink final : public MotionSink {
   bool needs_state(double time);
   void expose(size_t stream, const State& state);
   void draw(size_t stream, Simulator& simulator);
+  void begin_with_title(const Image& first);
 
   const Scene& scene_;
   Exports& exports_;

@@ -42,7 +42,7 @@ string request_of(const Scene& scene, const vector<Measure>& measures) {
 }  // namespace
 
 bool draws_after_motion(const Scene& scene) {
-  return may_stop(scene) || frames_motion(scene);
+  return may_stop(scene) || frames_motion(scene) || (scene.output.video && scene.output.video->chart);
 }
 
 Stages::Stages(span<const Show> shows, const RunSettings& settings, function<void()> stop_check)

@@ -44,15 +44,43 @@ void Framing::finish() {
   for (Framed& framed : framed_) framed.camera->frame(framed.fit.camera());
 }
 
-void survey(span<MovingCamera* const> cameras, Simulator& simulator, const function<void()>& stop_check) {
+Charting::Charting(span<FilmChart* const> charts)
+    : charts_(charts.begin(), charts.end()), timeline_(charts.empty() ? 0 : charts.front()->scene().simulate.duration) {
+  for (const FilmChart* chart : charts_) {
+    const Ticks ticks = chart->instants();
+    streams_.push_back(timeline_.add(ticks));
+    end_ = max(end_, ticks.at(ticks.last()));
+  }
+  if (any()) advance();
+}
+
+void Charting::advance() {
+  more_ = timeline_.advance() && timeline_.time() <= end_;
+}
+
+void Charting::sample(Simulator& simulator) {
+  for (size_t i = 0; i < charts_.size(); ++i)
+    if (timeline_.due(streams_[i])) charts_[i]->take(simulator.state());
+  advance();
+}
+
+void Charting::finish() {
+  for (FilmChart* chart : charts_) chart->settle();
+}
+
+void survey(span<MovingCamera* const> cameras, Simulator& simulator, const function<void()>& stop_check,
+            span<FilmChart* const> charts) {
   Framing framing(cameras);
-  MotionSink* const sinks[] = {&framing};
+  Charting charting(charts);
+  MotionSink* const sinks[] = {&framing, &charting};
+  const double duration = charts.empty() ? duration_of(cameras) : charts.front()->scene().simulate.duration;
   try {
-    carry_through(simulator, sinks, duration_of(cameras), unguarded, {.stop_check = stop_check});
+    carry_through(simulator, sinks, duration, unguarded, {.stop_check = stop_check});
   } catch (const SimulationError&) {
     // The run comes to the same instant, and reports it.
   }
   framing.finish();
+  charting.finish();
 }
 
 }  // namespace carom

@@ -33,6 +33,15 @@ double way_to_lowest(const World& world, const Vec3& x, const Vec3& down) {
   return way;
 }
 
+/// The way (m) from x down to the lowest place that strings from fixed points leave a body. Infinity: there is none.
+double way_on_strings(const World& world, Entity body, const Vec3& x, const Vec3& down) {
+  double way = infinity;
+  for (const String& string : world.strings)
+    if (string.body == body && string.other == no_entity && string.until == infinity)
+      way = min(way, down.dot(string.anchor - x) + string.length);
+  return max(way, 0.0);
+}
+
 enum class Rounding : uint8_t { down, up };
 
 /// `value` > 0, rounded to two digits: 0.206155 up to 0.21. Two digits keep most masses and radii of authors.
@@ -99,7 +108,7 @@ double expected_speed(const Scene& scene, Entity body) {
   const double g = world.gravity.norm(), speed = v.norm();
   if (g == 0) return speed;
   const Vec3 down = world.gravity / g, &x = scene.initial.position[body];
-  double fall = way_to_plane(world, x, down);
+  double fall = min(way_to_plane(world, x, down), way_on_strings(world, body, x, down));
   if (fall == infinity) fall = way_to_lowest(world, x, down);
   if (fall >= 0) return sqrt(speed * speed + 2 * g * fall);
   return (v + scene.simulate.duration * world.gravity).norm();

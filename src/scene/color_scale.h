@@ -16,7 +16,8 @@ struct ColorScale {
 ColorScale scale_of(const Scene& scene, const Coloring& coloring);
 
 /// The greatest speed (m/s) that a body has after the impulses of time 0, or reaches by a fall from there.
-/// A fall ends at the plane below, else at the height of the lowest wall or obstacle below, else with the run.
+/// A fall ends at the plane below or with a string from a fixed point, else at the height of the lowest wall or
+/// obstacle below, else with the run.
 double expected_speed(const Scene& scene, Entity body);
 
 /// The next larger number with at most two digits: 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8 and powers of ten times these.

@@ -96,8 +96,12 @@ void decode_camera(const Node& root, const Inventory& inventory, Scene& scene, D
 void decode_requests(const Node& root, const Inventory& inventory, const LoadOptions& options, Scene& scene,
                      Diagnostics& diagnostics);
 
-/// Decodes caption, trails, flash, arrows and shutter, and checks the colourings of bodies.
-/// The bodies must be decoded before.
+/// Checks the title card of a film, and decodes the chart beside it. `part`: the map of the film. `title`: the scene's.
+void decode_film_parts(const View& part, const Inventory& inventory, const string& title, VideoOutput& video,
+                       Diagnostics& diagnostics);
+
+/// Decodes caption, trails, flash, arrows, labels, scale_bar and shutter, and checks the colourings of bodies.
+/// The bodies and the output must be decoded before.
 void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, Diagnostics& diagnostics);
 
 /// Adds an error where places, sizes, speeds or forces exceed what doubles can represent.

@@ -7,6 +7,8 @@
 #include "scene/color_scale.h"
 #include "scene/decode.h"
 #include "scene/fields.h"
+#include "scene/film_layout.h"
+#include "scene/label_size.h"
 #include "scene/member.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -41,6 +43,28 @@ optional<Trails> decode_trails(const View& whole, const Inventory& inventory, co
 
 bool lists(const Node* names, string_view name) {
   return names != nullptr && !names->bad && any_of(names->items, [&](const Node& item) { return item.text == name; });
+}
+
+optional<Labels> decode_labels(const View& whole, const Inventory& inventory, const Scene& scene,
+                               Diagnostics& diagnostics) {
+  if (!whole.wants("labels")) return nullopt;
+  const View part = whole.part("labels");
+  const auto keys = filled<LabelKeys>(part);
+  optional<vector<Entity>> on = find_bodies(keys.on, inventory, "it has no label", diagnostics);
+  if (!on) return nullopt;
+  Labels labels{lists(keys.show, "name"), lists(keys.show, "speed"), lists(keys.show, "momentum"), std::move(*on)};
+
+  const size_t bodies = labels.on.empty() ? inventory.body_count : labels.on.size();
+  const Output& out = scene.output;
+  const Size size = out.frames ? out.frames->size : out.video ? layout_of(*out.video).picture : Size{};
+  const size_t most = most_labels(size, labels.count());
+  if (bodies > most)
+    diagnostics.add(
+        keys.on != nullptr ? part.place("on") : whole.place("labels"),
+        fmt::format("labels of {} bodies do not fit into a picture of {} x {} pixels", bodies, size.width, size.height),
+        fmt::format("expected at most {} bodies, such as `labels: {{show: [speed], on: [{}]}}`", most,
+                    scene.roster.bodies.empty() ? "red" : scene.roster.name(0)));
+  return labels;
 }
 
 void check_coloring(const View& body, const Coloring& coloring, const Scene& scene, Diagnostics& diagnostics) {
@@ -84,6 +108,8 @@ void decode_overlay(const Node& root, const Inventory& inventory, Scene& scene, 
   overlay.velocity_arrows = lists(whole.find("arrows"), "velocity");
   overlay.momentum_arrows = lists(whole.find("arrows"), "momentum");
   overlay.force_arrows = lists(whole.find("arrows"), "force");
+  overlay.labels = decode_labels(whole, inventory, scene, diagnostics);
+  overlay.scale_bar = whole.flag("scale_bar").value_or(false);
   overlay.shutter = whole.number("shutter").value_or(0);
   if (diagnostics.empty()) check_colors(inventory, scene, diagnostics);
 }

@@ -8,6 +8,7 @@
 #include "scene/engines.h"
 #include "scene/fields.h"
 #include "scene/film_format.h"
+#include "scene/film_layout.h"
 #include "scene/member.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -135,6 +136,7 @@ class Requests {
     if (format == FilmFormat::gif) check_gif(part, video);
     if (format) check_limits(part, video, *format);
     check_window(part, video.from, video.until);
+    decode_film_parts(part, inventory_, scene_.title, video, diagnostics_);
   }
 
   void check_sheet(const View& output, SheetOutput& sheet) {
@@ -211,7 +213,7 @@ class Requests {
 
   double count(const VideoOutput& video) const {
     const double until = video.until.value_or(scene_.simulate.duration);
-    return max(0.0, floor((until - video.from) * video.fps / video.speed) + 1);
+    return max(0.0, floor((until - video.from) * video.fps / video.speed) + 1) + double(title_pictures(video));
   }
 
   void check_budget() {
@@ -247,10 +249,10 @@ class Requests {
     };
 
     if (out.frames) add(count(*out.frames), "frames");
-    const bool shared = out.frames && out.video && out.video->speed == 1 &&
+    const bool shared = out.frames && out.video && out.video->speed == 1 && !out.video->chart &&
                         static_cast<const PictureOutput&>(*out.frames) == *out.video &&
                         std::remainder(out.video->from * out.video->fps, 1) == 0;
-    if (out.video && !shared) add(count(*out.video), "video");
+    if (out.video) add(shared ? double(title_pictures(*out.video)) : count(*out.video), "video");
     if (out.sheet) add(double(out.sheet->columns) * out.sheet->rows, "sheet");
 
     if (total > double(budget_.frames)) {

@@ -496,7 +496,8 @@ void write_out(Node& part, const Kind& kind) {
 
     // A list stands for a list, and any other plain value for one.
     if (field.plain.empty()) continue;
-    const bool list = find_field(*field.held, field.plain)->type == Type::list;
+    const Type plain = find_field(*field.held, field.plain)->type;
+    const bool list = plain == Type::list || plain == Type::names;
     if (!(list ? value->is_sequence() : value->is_scalar())) continue;
     Node whole;
     whole.kind = Node::Kind::map;

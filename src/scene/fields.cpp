@@ -50,7 +50,9 @@ constexpr Field scene_fields[] = {
     row("caption", "A text in each picture. Names in braces become values: {title}, {time} in s, {run} (the name of the run's folder), {collisions} (so far), and paths into the scene, such as {restitution.default}. Two braces are one. A text that begins with a brace needs quotes. true: the title and the time.", "\"{title}, t = {time} s\"", {.type = Type::text_or_flag, .title = "Text in the pictures", .drawn = true}),
     row("trails", "The paths of bodies during the last seconds, which fade with age.", "{seconds: 0.5}", {.type = Type::part_or_flag, .of = "trails", .drawn = true}),
     row("flash", "Whether bodies glow white for 0.1 s of film after a collision, and fade to their colour.", "true", {.type = Type::flag, .title = "Flash of collisions", .drawn = true}),
-    row("arrows", "Arrows at the bodies. velocity; momentum: mass times velocity; force: gravity and `forces`, without contact. The legend has their scale.", "[velocity]", {.type = Type::names, .of = "velocity|momentum|force", .drawn = true}),
+    row("arrows", "Arrows at the bodies. velocity; momentum: mass times velocity, and in a corner the sum over all bodies; force: gravity and `forces`, without contact. The legend has their scale.", "[velocity]", {.type = Type::names, .of = "velocity|momentum|force", .drawn = true}),
+    row("labels", "Values beside each body that is seen. momentum: mass times speed. A list alone is `show`.", "[speed]", {.type = Type::part, .of = "labels", .title = "Values beside bodies", .plain = "show", .drawn = true}),
+    row("scale_bar", "A bar of round length in the lower right corner, with its length. It is exact at the depth of the camera's target.", "true", {.type = Type::flag, .drawn = true}),
     row("shutter", "Motion blur: a picture is the mean of the light during this part of the interval between pictures, until its time. At most 32 instants make a picture.", "0.5", {.range = {0, 1}, .title = "Open part of the interval between pictures", .drawn = true}),
     row("measures", "Measures of the run by name, columns of summary.csv: a number of summary.csv, a quantity at the end (balls.red.y_m), max, min, time_of_max, time_of_min or mean of one over the run, first(a, b) in s, hits(a, b), impulse(a, b) in N s, of these over a part of the run with from and until such as max(balls.red.y_m, from: 1, until: 2), regions.NAME.entries, inside, first_s or first, count(y_m < 0). Or an expression of these that begins with =.", "{height_m: max(balls.red.y_m), share: '= hits(red, blue) / collisions'}", {.type = Type::texts, .title = "Measures of the run"}),
     row("output", "What the run writes. Default: trajectory, collisions and energy, no pictures.", "{trajectory: {every: 0.01}, collisions: true, energy: true}", {.type = Type::part, .of = "output"}),
@@ -366,6 +368,11 @@ constexpr Field trails_fields[] = {
     row<TrailKeys, &TrailKeys::on>("on", "Balls, bodies, groups and members that have a trail. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that have a trail", .pattern = reference}),
 };
 
+constexpr Field labels_fields[] = {
+    row<LabelKeys, &LabelKeys::show>("show", "The values, in the order name, speed, momentum.", "[speed, momentum]", {.type = Type::names, .of = "name|speed|momentum", .needed = true, .title = "Values"}),
+    row<LabelKeys, &LabelKeys::on>("on", "Balls, bodies, groups and members that have labels. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that have labels", .pattern = reference}),
+};
+
 constexpr Field ambient = row("ambient", "Colour of the ambient light, which comes from all directions.", "dimgray", {.type = Type::color});
 
 constexpr Field light_fields[] = {
@@ -425,6 +432,7 @@ constexpr Kind kinds_of_scenes[] = {
     {"light", "a", "A light.", light_fields, &ambient},
     {"coloring", "", "Colours of bodies by a quantity, with a legend in the picture.", coloring_fields},
     {"trails", "", "Trails of bodies.", trails_fields},
+    {"labels", "", "Values beside bodies.", labels_fields},
 };
 
 /// The rows, completed with the defaults of their members, the rows of the outputs, and the kinds that they name.

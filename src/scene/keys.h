@@ -262,6 +262,11 @@ struct TrailKeys {
   const Node* on = nullptr;  // names; null: all bodies
 };
 
+struct LabelKeys {
+  const Node* show = nullptr;  // quantities
+  const Node* on = nullptr;    // names; null: all bodies
+};
+
 enum class FitTo : uint8_t { motion };
 
 /// Eye and target may be missing, depending on the keys here.

@@ -2,6 +2,7 @@
 // The keys of `output`: what a scene requests a run to write. Their rows are in output_kinds.cpp.
 
 #include "physics/entity.h"
+#include "physics/quantity.h"
 #include "std.h"
 
 namespace carom {
@@ -43,11 +44,24 @@ struct PictureOutput {
   friend bool operator==(const PictureOutput&, const PictureOutput&) = default;
 };
 struct FramesOutput : PictureOutput {};
+/// What a chart beside the film shows.
+struct ChartSubject {
+  enum class Kind : uint8_t { energy, momentum, body };
+  Kind kind = Kind::energy;
+  // Of kind body.
+  Quantity quantity = Quantity::x;
+  Entity body = 0;
+  friend bool operator==(const ChartSubject&, const ChartSubject&) = default;
+};
+
 struct VideoOutput : PictureOutput {
   string file = "animation.mp4";  // a plain file name; its ending chooses the format (film_format.h)
   int crf = 18;
   /// Seconds of motion a second of film. Picture i shows the time from + i * speed / fps.
   double speed = 1;
+  bool title = false;            // a card with the scene's title comes first (film_layout.h)
+  optional<string> beside{};     // as in the file; none: no chart
+  optional<ChartSubject> chart;  // what `beside` names
 };
 
 struct SheetOutput {

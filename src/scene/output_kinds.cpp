@@ -72,6 +72,8 @@ constexpr Field video_fields[] = {
     with(film_from, fills<VideoOutput, &VideoOutput::from>),
     with(until, fills<VideoOutput, &VideoOutput::until>),
     row<VideoOutput, &VideoOutput::speed>("speed", "Seconds of motion a second of film; 0.125 is eightfold slow motion.", "0.125", {.range = {1e-6, 1e6}, .title = "Seconds of motion a second of film"}),
+    row<VideoOutput, &VideoOutput::title>("title", "Whether the film begins with the scene's title, for 2 s.", "true", {.title = "Title card"}),
+    row_if_given<VideoOutput, &VideoOutput::beside>("beside", "A chart that grows in the right third of the film: energy, momentum, or a quantity of a body: x(red), y, z, vx, vy, vz, speed or kinetic.", "energy", {.title = "Chart beside the pictures", .pattern = R"(^(energy|momentum|(x|y|z|vx|vy|vz|speed|kinetic)\([A-Za-z_][A-Za-z0-9_-]*(\.[0-9]+)*\))$)"}),
 };
 
 constexpr Field sheet_fields[] = {

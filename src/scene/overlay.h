@@ -28,12 +28,21 @@ struct Trails {
   vector<Entity> on{};     // ascending; empty: all bodies
 };
 
+/// Values beside bodies, in this order.
+struct Labels {
+  bool name = false, speed = false, momentum = false;
+  vector<Entity> on{};                                                  // ascending; empty: all bodies
+  int count() const { return int(name) + int(speed) + int(momentum); }  // of values beside a body
+};
+
 struct Overlay {
   /// A template (caption.h) without paths into the scene. Empty: none.
   string caption;
   optional<Trails> trails;
   bool flash = false;  // of bodies that collide
   bool velocity_arrows = false, momentum_arrows = false, force_arrows = false;
+  optional<Labels> labels;
+  bool scale_bar = false;
   /// The part of the interval between pictures in which the shutter is open, 0 to 1.
   double shutter = 0;
   /// Numbers of forces in World::forces. Their springs are not drawn.

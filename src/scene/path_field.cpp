@@ -43,6 +43,43 @@ vector<const Field*> fields_along(string_view path) {
 
 }  // namespace
 
+string words_of(string_view path) {
+  string thing, words;
+  const Kind* kind = &kind_named("scene");
+  const Field* before = nullptr;
+
+  for (size_t i = 0; i <= path.size();) {
+    const size_t end = min(path.find('.', i), path.size());
+    const string word(path.substr(i, end - i));
+    i = end + 1;
+    const Field* const field = kind != nullptr ? find_field(*kind, word) : nullptr;
+
+    if (before != nullptr && holds_entries(*before)) {
+      // A name, or the number of an entry in a list.
+      thing = before->type == Type::list ? string(before->held->name) + " " + word : word;
+      words.clear();
+      before = nullptr;
+      continue;
+    }
+    if (before != nullptr && before->type == Type::values) {
+      words = word;
+    } else if (field != nullptr) {
+      if (before != nullptr && before->key == "defaults") thing = word;
+      words = title_of(*field);
+    } else {
+      // A component, or the number of a group's member.
+      words += (words.empty() ? "" : " ") + word;
+    }
+
+    before = field;
+    kind = field != nullptr ? field->held : nullptr;
+  }
+
+  if (thing.empty() || words.empty()) return thing + words;
+  if (words[0] >= 'A' && words[0] <= 'Z') words[0] = char(words[0] - 'A' + 'a');
+  return thing + ": " + words;
+}
+
 const Field* field_at(string_view path) {
   const vector<const Field*> fields = fields_along(path);
   return fields.empty() ? nullptr : fields.back();

@@ -282,6 +282,8 @@ class Resolver {
     if (overlay.trails) line("trails", flow(whole.part("trails")));
     if (overlay.flash) line("flash", "true");
     if (const Node* arrows = root_.find("arrows")) line("arrows", flow_text(*arrows));
+    if (overlay.labels) line("labels", flow(whole.part("labels")));
+    if (overlay.scale_bar) line("scale_bar", "true");
     if (const Node* shutter = root_.find("shutter")) line("shutter", flow_text(*shutter));
   }
 

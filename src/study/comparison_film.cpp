@@ -10,10 +10,13 @@
 
 #include "compare/comparison_plan.h"
 #include "compare/outcomes.h"
+#include "compare/stored_measures.h"
 #include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "scene/film_format.h"
+#include "scene/film_layout.h"
+#include "scene/path_field.h"
 #include "scene/sweep.h"
 #include "std.h"
 #include "study/sweep_folder.h"
@@ -38,7 +41,7 @@ string redrawing(const string& run, string_view setting) {
 }
 
 FilmTile tile_of(const ListedRun& run) {
-  FilmTile tile{run.folder, {}, 0, {run.id}};
+  FilmTile tile{run.folder, {}, 0, {}};
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
   const Json outputs = manifest ? json_of_text(manifest->outputs) : Json();
@@ -54,13 +57,19 @@ FilmTile tile_of(const ListedRun& run) {
   if (!video.is_object()) throw damaged();
 
   const Json file = video.value("file", Json("animation.mp4")), from = video.value("from", Json(0.0)),
-             speed = video.value("speed", Json(1.0));
-  if (!file.is_string() || !is_plain_name(file.get<string>()) || !from.is_number() || !speed.is_number())
+             speed = video.value("speed", Json(1.0)), fps = video.value("fps", Json(30.0)),
+             title = video.value("title", Json(false));
+  if (!file.is_string() || !is_plain_name(file.get<string>()) || !from.is_number() || !speed.is_number() ||
+      !fps.is_number() || !title.is_boolean())
     throw damaged();
 
   tile.file = file.get<string>();
   tile.from = from.get<double>();
   tile.speed = speed.get<double>();
+  VideoOutput settings;
+  settings.fps = fps.get<double>();
+  settings.title = title.get<bool>();
+  tile.before = uint64_t(title_pictures(settings));
 
   if (film_format(tile.file) == FilmFormat::webp)
     throw ExportError(fmt::format("{} has a film that ffmpeg cannot read, {}: draw it as .mp4 ({})", run.folder,
@@ -92,12 +101,31 @@ vector<FilmTile> film_tiles(const RunSet& runs) {
   const vector<size_t> varied = outcomes.independent();
 
   vector<FilmTile> tiles;
+  vector<string> titles;
   for (size_t i = 0; i < count; ++i) {
     tiles.push_back(tile_of(runs.runs()[i]));
     refuse_other_speed(tiles.back(), tiles.front());
+    titles.push_back(load_run_scene(runs.runs()[i].folder).title);
+  }
+
+  // Titles that tell the runs apart, or else their names, unless these are a sweep's numbers.
+  const bool titled = any_of(titles, [&](const string& title) { return title != titles.front(); });
+  for (size_t i = 0; i < count; ++i) {
+    vector<string>& labels = tiles[i].labels;
+    if (titled && !titles[i].empty())
+      labels.push_back(titles[i]);
+    else if (!runs.is_sweep() || varied.empty())
+      labels.push_back(runs.runs()[i].id);
+
     const ComparedRun run = runs.run(i);
-    for (size_t k = 0; k < min(varied.size(), most_labels); ++k)
-      tiles.back().labels.push_back(name_of_value(plan.parameters[varied[k]], run.values[varied[k]]));
+    for (size_t k = 0; k < min(varied.size(), most_labels); ++k) {
+      const Parameter& parameter = plan.parameters[varied[k]];
+      const string& value = run.values[varied[k]];
+      if (!value.empty())
+        labels.push_back(fmt::format("{} {}{}{}", words_of(parameter.path), value, parameter.unit.empty() ? "" : " ",
+                                     parameter.unit));
+    }
+    if (labels.empty()) labels.push_back(runs.runs()[i].id);
   }
   return tiles;
 }

@@ -7,7 +7,8 @@
 
 namespace carom {
 
-/// The film of each run, labelled with the run's id and its varied values.
+/// The film of each run, labelled with the words of its scene: its title if the runs' titles differ, or the name of its
+/// folder, unless the runs are those of a sweep; and its varied values.
 /// Throws ExportError. Its text names what a run lacks and the remedy.
 vector<FilmTile> film_tiles(const RunSet& runs);
 

@@ -39,6 +39,8 @@ class RunSet {
   /// The index of the seed among the parameters, if it distinguishes repeats of the same scenario.
   optional<size_t> seed() const { return seed_; }
   const vector<ListedRun>& runs() const { return runs_; }
+  /// Whether the runs are those of a sweep, numbered by it.
+  bool is_sweep() const { return sweep_.has_value(); }
   /// Run `number` with its values. Those that its scene lacks are empty.
   ComparedRun run(size_t number) const;
 

@@ -302,6 +302,40 @@ TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
       "  install it (on Debian: apt install fonts-dejavu-core), or leave --video out\n");
 }
 
+// The first ball goes 1 m, the other one 4 m: by cameras of their own the first would be larger.
+TEST(CompareCommand, FilmsThatFrameTheirMotionsHaveOneCamera) {
+  SLOW_WITH_SANITIZERS();
+  const Workplace here;
+  here.write("ball.yaml",
+             "scene: 1\ntitle: A ball\nsimulate: {duration: 1}\ngravity: [0, 0, 0]\nbackground: black\n"
+             "balls: {red: {mass: 1, radius: 0.2, position: [0, 0, 0], velocity: [1, 0, 0], color: white}}\n"
+             "output: {video: {fps: 4, size: [160, 90], crf: 1, title: true}}\n");
+  ASSERT_EQ(here.carom({"run", "ball.yaml", "-q", "-o", "runs/near"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "ball.yaml", "-q", "-o", "runs/far", "--set", "balls.red.velocity.x=4"}).code, 0);
+  const Finished run = here.carom({"compare", "runs/near", "runs/far", "--video"});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(here.files("output/comparison").size(), 4u) << "nothing but the comparison is left";
+
+  // 1 s at 4 pictures a second, without the title cards.
+  EXPECT_EQ(here.shell("ffprobe -v error -count_packets -show_entries stream=width,nb_read_packets -of csv=p=0 "
+                       "output/comparison/comparison.mp4")
+                .out,
+            "320,5\n");
+
+  // The numbers of light pixels in the two pictures of time 0, and in those of the runs' own films.
+  const auto light = [&](const string& film, const string& filter) {
+    const string grey =
+        here.shell("ffmpeg -v error -i " + film + " -vf '" + filter + "' -frames:v 1 -f rawvideo -pix_fmt gray pipe:1")
+            .out;
+    return double(ranges::count_if(grey, [](char c) { return static_cast<unsigned char>(c) > 120; }));
+  };
+  const string film = "output/comparison/comparison.mp4";
+  const double near = light(film, "crop=160:90:0:ih-90"), far = light(film, "crop=160:90:160:ih-90");
+  EXPECT_GT(near, 20);
+  EXPECT_NEAR(near, far, 0.15 * far);
+  EXPECT_GT(light("runs/near/animation.mp4", "select=gte(n\\,8)"), 2 * near);
+}
+
 TEST(CompareCommand, FilmOfSlowMotionStaysInStep) {
   const Workplace here;
   here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"

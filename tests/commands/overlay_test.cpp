@@ -179,8 +179,8 @@ TEST(Overlay, WithoutItsFontEndsTheRunBeforeItsFolderIsMade) {
   EXPECT_EQ(run.err,
             "balls.yaml: error: text in pictures needs the typeface DejaVu Sans, and no folder of fonts has "
             "DejaVuSans.ttf\n"
-            "    = install it (on Debian: apt install fonts-dejavu-core), or leave out `caption`, `arrows` and `color: "
-            "{by: ...}`\n"
+            "    = install it (on Debian: apt install fonts-dejavu-core), or leave out `caption`, `labels`, `scale_bar`, "
+            "`arrows`, `color: {by: ...}`, and `title` and `beside` of `video`\n"
             "carom: 1 error; nothing was run\n");
   EXPECT_FALSE(here.has("out"));
 }

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "overlay/text_notes.h"
 #include "render/renderer.h"
 #include "scene/scenes_in_text.h"
 #include "std.h"
@@ -168,6 +169,72 @@ TEST(Caption, IsOpaqueWhereAPictureIsTransparent) {
   EXPECT_EQ(pixel(0, 0), (vector<int>{0, 0, 0, 0}));
 }
 
+/// Runs some work in a system whose only fonts are in the test's folder.
+template <typename Work>
+void with_fonts_of(const string& folder, const Work& work) {
+  const char* names[] = {"HOME", "XDG_DATA_HOME", "XDG_DATA_DIRS"};
+  vector<string> kept;
+  for (const char* name : names) {
+    kept.emplace_back(std::getenv(name) != nullptr ? std::getenv(name) : "");
+    setenv(name, folder.c_str(), 1);
+  }
+  work();
+  for (size_t i = 0; i < 3; ++i) setenv(names[i], kept[i].c_str(), 1);
+}
+
+/// A folder with a font under a name.
+string folder_with(const string& font, const string& name) {
+  const string folder = test_folder() + "_fonts";
+  std::filesystem::create_directories(folder + "/fonts");
+  std::filesystem::copy_file(font, folder + "/fonts/" + name, std::filesystem::copy_options::overwrite_existing);
+  return folder;
+}
+
+TEST(Letters, ThatTheFontLacksComeFromAnotherFont) {
+  // DejaVu Sans Mono has no Hebrew letters, and DejaVu Sans does.
+  const string sans = find_font();
+  const string mono = std::filesystem::path(sans).parent_path() / "DejaVuSansMono.ttf";
+  const string alef = "\u05d0";
+  with_fonts_of(folder_with(sans, "Other.ttf"), [&] {
+    const Font font(mono, 40), other(sans, 40);
+    EXPECT_EQ(font.lacking("a" + alef), std::u32string());
+    EXPECT_EQ(font.lacking("a" + alef, true), std::u32string(U"\u05d0"));
+    EXPECT_EQ(font.width(alef), other.width(alef));
+
+    Coverage mixed(120, 60), alone(120, 60);
+    font.draw("ab" + alef, 5, 45, mixed);
+    font.draw("ab", 5, 45, alone);
+    other.draw(alef, 5 + font.width("ab"), 45, alone);
+    EXPECT_EQ(mixed.values, alone.values);
+  });
+  std::filesystem::remove_all(test_folder() + "_fonts");
+}
+
+TEST(Letters, ThatNoFontHasAreSaid) {
+  with_fonts_of(folder_with(find_font(), "DejaVuSans.ttf"), [&] {
+    const auto notes = [](const string& title) {
+      return text_notes(load_text(start + "title: \"" + title + "\"\ncaption: true\noutput: {frames: true}\n"));
+    };
+    EXPECT_EQ(notes("Größe 5 µm, Ωμέγα, Привет, 3 × 4 ≤ 12 …"), vector<string>());
+    ASSERT_EQ(notes("球と球 🎱").size(), 1u);
+    EXPECT_EQ(
+        notes("球と球 🎱")[0],
+        "pictures show a box in place of each of the letters 球と🎱, which no installed font has: install one that "
+        "has them (on Debian: apt install fonts-noto-cjk fonts-symbola)");
+    // DejaVu Sans has Arabic letters, but they would have to be joined.
+    ASSERT_EQ(notes("كرة").size(), 1u);
+    EXPECT_NE(notes("كرة")[0].find("one by one from left to right"), string::npos);
+    // Marks that are not seen need no font.
+    EXPECT_EQ(notes("a\u200db\ufe0f"), vector<string>());
+    EXPECT_EQ(text_notes(load_text(start + "title: 球\noutput: {frames: true}\n")), vector<string>());
+    EXPECT_EQ(text_notes(load_text(start + "title: 球\ncaption: true\n")), vector<string>());
+    EXPECT_EQ(text_notes(load_text(start + "title: 球\noutput: {video: {title: true}}\n")).size(), 1u);
+    EXPECT_EQ(text_notes("the labels of the film", {"球"}, true)[0],
+              "the labels of the film show a box in place of each of the letters 球, which DejaVu Sans lacks");
+  });
+  std::filesystem::remove_all(test_folder() + "_fonts");
+}
+
 TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
   const Scene scene = load_text(start + "caption: true\noutput: {frames: true}\n");
   const Scene without = load_text(start + "output: {frames: true}\n");
@@ -189,9 +256,11 @@ TEST(Caption, WithoutItsFontIsAnErrorWithARemedy) {
   EXPECT_NO_THROW(check_font(without));
 
   for (size_t i = 0; i < 3; ++i) setenv(names[i], kept[i].c_str(), 1);
-  EXPECT_EQ(error,
-            "text in pictures needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n  install it "
-            "(on Debian: apt install fonts-dejavu-core), or leave out `caption`, `arrows` and `color: {by: ...}`");
+  EXPECT_EQ(
+      error,
+      "text in pictures needs the typeface DejaVu Sans, and no folder of fonts has DejaVuSans.ttf\n  install it "
+      "(on Debian: apt install fonts-dejavu-core), or leave out `caption`, `labels`, `scale_bar`, `arrows`, `color: "
+      "{by: ...}`, and `title` and `beside` of `video`");
   EXPECT_NO_THROW(check_font(scene));
 }
 

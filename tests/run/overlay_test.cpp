@@ -1,9 +1,14 @@
 // Whole runs of scenes whose pictures show more than bodies: what is recorded, at which instants, and the same results.
+#include <fcntl.h>
+
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
+#include "export/film_file.h"
 #include "overlay/history.h"
 #include "overlay/inscription.h"
+#include "overlay/title_card.h"
 #include "run/engine.h"
 #include "run/picture_series.h"
 #include "run/run_scene.h"
@@ -195,6 +200,81 @@ TEST(Caption, HasTheExactTimeAndCountOfItsPicture) {
     Inscription(plain, {320, 180}).write({}, written);
     EXPECT_TRUE(picture.pixels == written.pixels) << text;
   }
+}
+
+/// The number of pictures in a film, and its length in s.
+pair<uint64_t, double> film_of(const string& folder, const string& name) {
+  const Descriptor directory(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FilmFacts facts = film_facts(find_film_tools(), {directory.get(), folder}, name);
+  return {facts.frames, double(facts.frames * facts.per) / double(facts.rate)};
+}
+
+TEST(TitleCard, AddsTwoSecondsToAFilm) {
+  const auto film = [&](const string& keys, const string& name) {
+    const string folder = run_of(
+        bouncing + floor_plane + "output: {video: {size: [64, 36], samples: 1, " + keys + ", file: " + name + "}}\n",
+        name);
+    const auto found = film_of(folder, name);
+    std::filesystem::remove_all(test_folder());
+    return found;
+  };
+
+  for (const string name : {"a.mp4", "a.gif"}) {
+    const string gif_rate = "fps: 20, until: 1";
+    EXPECT_EQ(film(gif_rate, name).first, 21u) << name;
+    EXPECT_EQ(film(gif_rate + ", title: true", name), (pair<uint64_t, double>(61, 3.05))) << name;
+  }
+
+  // Rounded to whole pictures, and at least one.
+  EXPECT_EQ(film("fps: 12.7, until: 0, title: true", "a.mp4").first, 1u + 25);
+  EXPECT_EQ(film("fps: 0.2, until: 0, title: true", "a.mp4").first, 1u + 1);
+}
+
+TEST(TitleCard, FadesIntoTheFirstPicture) {
+  const Scene scene = load_text(bouncing + floor_plane + "output: {frames: true}\n");
+  const Image first = pictures_of(scene, {0}, 0.1).pictures[0];
+  TitleCard card("A ball", first);
+  const auto light = [](const Image& image) { return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0); };
+
+  const double whole = light(first);
+  const Image full = card.picture(2);
+  EXPECT_EQ(card.picture(0.4).pixels, full.pixels);
+  EXPECT_LT(light(full), 0.5 * whole);
+
+  double before = light(full);
+  for (int i = 11; i >= 0; --i) {
+    const double now = light(card.picture(i / 30.0));
+    EXPECT_GT(now, before);
+    EXPECT_LT(now - before, 0.13 * whole);  // 0.11 at most: no jump
+    before = now;
+  }
+  EXPECT_EQ(card.picture(0).pixels, first.pixels);
+
+  // Whole lines of white in the middle, at equal distances from the sides.
+  int left = first.width, right = -1;
+  for (int y = 60; y < 120; ++y)
+    for (int x = 0; x < first.width; ++x)
+      if (full.row(y)[3 * x] == 255) left = std::min(left, x), right = std::max(right, x);
+  EXPECT_NEAR(left + right, first.width - 1, 3);
+}
+
+TEST(TitleCard, BreaksALongTitleIntoEvenLines) {
+  const Image ground{640, 360, vector<uint8_t>(size_t{640} * 360 * 3, 90)};
+  TitleCard card("A title of so many words that it has to be broken into lines, of which none is much longer", ground);
+  const Image& full = card.picture(2);
+  int rows = 0;
+  bool before = false;
+
+  for (int y = 0; y < 360; ++y) {
+    bool letters = false;
+    for (int x = 0; x < 640; ++x) {
+      letters = letters || full.row(y)[3 * x] > 200;
+      EXPECT_FALSE((x < 40 || x > 600) && full.row(y)[3 * x] > 200);
+    }
+    rows += letters && !before;
+    before = letters;
+  }
+  EXPECT_GE(rows, 3);
 }
 
 }  // namespace

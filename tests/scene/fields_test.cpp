@@ -119,5 +119,18 @@ TEST(Fields, OfPicturesAloneAreKnownByTheirPaths) {
     EXPECT_FALSE(is_drawn(path)) << path;
 }
 
+TEST(Paths, HaveWords) {
+  const pair<const char*, const char*> words[] = {{"restitution.default", "Default coefficient of restitution"},
+                                                  {"balls.red.position.z", "red: position z"},
+                                                  {"defaults.ball.mass", "ball: mass"},
+                                                  {"groups.gas.ball.radius", "gas: radius"},
+                                                  {"let.r", "r"},
+                                                  {"gravity.y", "Gravity y"},
+                                                  {"simulate.rest_speed", "Rest speed"},
+                                                  {"forces.0.drag.linear", "force 0: linear"},
+                                                  {"seed", "Seed"}};
+  for (const auto& [path, text] : words) EXPECT_EQ(words_of(path), text);
+}
+
 }  // namespace
 }  // namespace carom

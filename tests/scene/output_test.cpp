@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/fields.h"
+#include "scene/film_layout.h"
+#include "scene/scenes_in_text.h"
 #include "std.h"
 
 namespace carom {
@@ -77,6 +79,51 @@ TEST(Outputs, ASeriesRecognisesItsOwnNames) {
   for (const char* name : {"frame_00007.png", "frame_1234567.png"}) EXPECT_TRUE(frame_files.has(name));
   for (const char* name : {"frame_0007.png", "frame_0000x.png", "frame_.png", "x_00007.png", "frame_00007.pn"})
     EXPECT_FALSE(frame_files.has(name)) << name;
+}
+
+TEST(Video, TakesAChartOfEnergyMomentumOrABody) {
+  const string ball = start + "balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}\n";
+  const string gas =
+      "groups: {gas: {count: 3, in: {min: [5, 5, 5], max: [9, 9, 9]}, ball: {mass: 1, radius: 0.1}}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
+  const auto chart = [&](const string& beside) {
+    return load_text(ball + gas + "output: {video: {beside: " + beside + "}}\n").output.video->chart.value();
+  };
+  EXPECT_EQ(chart("energy").kind, ChartSubject::Kind::energy);
+  EXPECT_EQ(chart("momentum").kind, ChartSubject::Kind::momentum);
+  EXPECT_EQ(chart("x(red)"), (ChartSubject{ChartSubject::Kind::body, Quantity::x, 0}));
+  EXPECT_EQ(chart("speed(gas.2)"), (ChartSubject{ChartSubject::Kind::body, Quantity::speed, 3}));
+  EXPECT_EQ(chart("kinetic(gas.0)").quantity, Quantity::kinetic);
+
+  const auto refused = [&](const string& video) {
+    return errors_of(ball + gas + "output: {video: {" + video + "}}\n");
+  };
+  EXPECT_NE(refused("beside: energies").find("`energies` is no chart"), string::npos);
+  EXPECT_NE(refused("beside: x_m(red)").find("is no chart"), string::npos);
+  EXPECT_NE(refused("beside: x(rd)").find("did you mean `red`?"), string::npos);
+  EXPECT_NE(refused("beside: x(gas)").find("`gas` stands for 3 bodies: a chart shows one"), string::npos);
+  EXPECT_NE(refused("beside: x(floor)").find("`floor` is a fixed thing: a chart shows a body"), string::npos);
+  EXPECT_NE(refused("beside: energy, size: [64, 36]").find("a film of 64 x 36 pixels has no room for a chart"),
+            string::npos);
+}
+
+TEST(Video, WithATitleNeedsOneOfTheScene) {
+  const string errors = errors_of(start + "output: {video: {title: true}}\n");
+  EXPECT_NE(errors.find("the film is to begin with the scene's title, and the scene has none"), string::npos) << errors;
+  EXPECT_EQ(errors_of(start + "title: A\noutput: {video: {title: true}}\n"), "");
+  EXPECT_EQ(errors_of(start + "output: {video: {title: false}}\n"), "");
+}
+
+TEST(Video, OfFilmsWithChartsHaveAPictureInTwoThirds) {
+  VideoOutput video;
+  EXPECT_EQ(layout_of(video).picture, (Size{1280, 720}));
+  video.chart.emplace();
+  EXPECT_EQ(layout_of(video).picture, (Size{854, 720}));
+  EXPECT_EQ(layout_of(video).chart, (Size{426, 720}));
+  EXPECT_EQ(layout_of(video).left, 854);
+  video.size = {1080, 1080};
+  EXPECT_EQ(layout_of(video).picture, (Size{1080, 720}));
+  EXPECT_EQ(layout_of(video).top, 720);
 }
 
 }  // namespace

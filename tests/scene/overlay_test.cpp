@@ -257,6 +257,9 @@ TEST(ColourScale, OfSpeedEndsWithTheFastestStartOrFallRoundedUp) {
   EXPECT_EQ(scale("by: speed", ball + "}}\nplanes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n").max, 8);
   // Nothing below: 2 s of falling, |(3, -2 g, 0)| = 19.8.
   EXPECT_EQ(scale("by: speed", ball + "}}\n").max, 20);
+  // A string of 1.5 m from 1 m above ends it 0.5 m below: sqrt(9 + g) = 4.34. One that is cut does not.
+  EXPECT_EQ(scale("by: speed", ball + "}}\nstrings: {s: {from: [0, 3, 0], to: a, length: 1.5}}\n").max, 5);
+  EXPECT_EQ(scale("by: speed", ball + "}}\nstrings: {s: {from: [0, 3, 0], to: a, length: 1.5, until: 1}}\n").max, 20);
   // An obstacle with its lower side 1 m below: sqrt(9 + 2 g) = 5.35.
   EXPECT_EQ(scale("by: speed", ball + "}}\nobstacles: {o: {radius: 0.5, position: [0, 1.5, 9]}}\n").max, 6);
   EXPECT_EQ(scale("by: kinetic", still + ball + "}}\n").max, 10);  // 9 J
@@ -306,6 +309,33 @@ TEST(Springs, ThatAreNotVisibleAreKnownByTheirNumber) {
   EXPECT_EQ(scene.overlay.hidden_springs, vector<size_t>{1});  // drag without effect is no force
   EXPECT_NE(errors_of(balls + "forces: [{uniform: [1, 0, 0], visible: false}]\n").find("`visible` but no `spring`"),
             string::npos);
+}
+
+TEST(Labels, AreAListOrAMapWithNames) {
+  const Scene list = load_text(balls + "labels: [momentum, speed]\n");
+  ASSERT_TRUE(list.overlay.labels);
+  EXPECT_TRUE(list.overlay.labels->speed && list.overlay.labels->momentum && !list.overlay.labels->name);
+  EXPECT_TRUE(list.overlay.labels->on.empty());
+
+  const Scene some = load_text(balls + "labels: {show: [name], on: [blue]}\n");
+  EXPECT_EQ(some.overlay.labels->on, vector<Entity>{1});
+  EXPECT_EQ(some.overlay.labels->count(), 1);
+  EXPECT_EQ(load_text(some.resolved).overlay.labels->on, vector<Entity>{1});
+  EXPECT_FALSE(load_text(balls).overlay.labels || load_text(balls).overlay.scale_bar);
+  EXPECT_TRUE(load_text(load_text(balls + "scale_bar: true\n").resolved).overlay.scale_bar);
+
+  EXPECT_NE(errors_of(balls + "labels: [sped]\n").find("did you mean `speed`?"), string::npos);
+  EXPECT_NE(errors_of(balls + "labels: {on: [red]}\n").find("show"), string::npos);
+  EXPECT_NE(errors_of(balls + "labels: {show: [speed], on: [blu]}\n").find("did you mean `blue`?"), string::npos);
+  EXPECT_NE(errors_of(balls + "labels: true\n").find("labels"), string::npos);
+}
+
+TEST(Labels, OfMoreBodiesThanAPictureHoldsAreRefused) {
+  const string gas = "groups: {gas: {count: 50, in: {min: [5, 5, 5], max: [9, 9, 9]}, ball: {mass: 1, radius: 0.1}}}\n";
+  const string errors = errors_of(balls + gas + "labels: [speed]\noutput: {frames: true}\n");
+  EXPECT_NE(errors.find("labels of 52 bodies do not fit into a picture of 1280 x 720 pixels"), string::npos) << errors;
+  EXPECT_NE(errors.find("expected at most 41 bodies, such as `labels: {show: [speed], on: [red]}`"), string::npos);
+  EXPECT_EQ(errors_of(balls + gas + "labels: {show: [speed], on: [red, gas.3]}\n"), "");
 }
 
 }  // namespace

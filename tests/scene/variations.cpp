@@ -176,6 +176,8 @@ caption: "{title}, {time}, {run}, {collisions}, e = {restitution.default}"
 trails: {seconds: 0.5, width: 0.01, on: [red]}
 flash: true
 arrows: [velocity, force]
+labels: {show: [name, speed, momentum], on: [red]}
+scale_bar: true
 shutter: 0.5
 )",
     R"(
@@ -285,6 +287,8 @@ simulate: {duration: 1}
 )",
     "{scene: 1, simulate: {duration: 1, engine: book, as_printed: true}}",
     "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
+    "{scene: 1, title: T, balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}}, simulate: {duration: 1}, output: "
+    "{video: {title: true, beside: x(red), size: 720p}}}",
     "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
     R"(
 scene: 1
