@@ -55,7 +55,7 @@ void add_labels(const Labels& labels, const Moment& moment, double fastest, Mark
 
 Color color_of(const Scene& scene, Entity body) {
   const BodyRange& range = scene.roster.range_of(body);
-  return range.coloring ? body_color(body) : range.color;
+  return range.coloring ? body_color(scene.look, body) : range.color;
 }
 
 MomentumSum momentum_of(const Moment& moment, const MarkScales& scales) {

@@ -41,7 +41,7 @@ Color lightened(const Color& color) {
 
 Color curve_color(const Scene& scene, Entity body) {
   const BodyRange& range = scene.roster.range_of(body);
-  return lightened(range.coloring ? body_color(body) : range.color);
+  return lightened(range.coloring ? body_color(scene.look, body) : range.color);
 }
 
 }  // namespace

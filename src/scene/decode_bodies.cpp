@@ -59,8 +59,7 @@ class Bodies {
       const string_view family = family_of(body.key->text);
       if (family.empty() || family != last_family) ++things;
       last_family = family;
-      const auto& palette = style_of(scene_.look).bodies;
-      const Color chosen = from_rgb(palette[(things - 1) % palette.size()]);
+      const Color chosen = body_color(scene_.look, things - 1);
       const BodyColor color = keys.color.value_or(BodyColor{chosen, nullopt});
       scene_.roster.bodies.push_back({body.key->text, body.first, Entity(body.count), body.group,
                                       color.by ? chosen : color.plain, form ? form->mesh : nullopt, color.by,

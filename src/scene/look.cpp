@@ -130,4 +130,9 @@ const LookStyle& style_of(SceneLook look) {
   return styles[size_t(look)];
 }
 
+Color body_color(SceneLook look, size_t i) {
+  const auto& palette = style_of(look).bodies;
+  return from_rgb(palette[i % palette.size()]);
+}
+
 }  // namespace carom

@@ -32,6 +32,8 @@ struct LookStyle {
   uint32_t ink;    // of outlines, of lines on planes and of a room's edges
 };
 const LookStyle& style_of(SceneLook look);
+/// The colour of the i-th ball, body or group, where the scene gives none.
+Color body_color(SceneLook look, size_t i);
 
 /// How a surface reflects light.
 enum class Finish : uint8_t { matte, plastic, metal, glass, glow };
