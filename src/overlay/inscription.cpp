@@ -15,8 +15,13 @@ double letters_of(Size size) {
   return max(size.height * letters, 2 * TextBlock::least_size);
 }
 
+/// A film that slows down says so, also without a caption of the scene.
+bool has_caption(const Scene& scene) {
+  return !scene.overlay.caption.empty() || (scene.output.video && scene.output.video->slow);
+}
+
 bool has_text(const Scene& scene) {
-  return !scene.overlay.caption.empty() || !legends_of(scene).empty();
+  return has_caption(scene) || !legends_of(scene).empty();
 }
 
 }  // namespace
@@ -26,7 +31,7 @@ void check_font(const Scene& scene) {
 }
 
 Inscription::Inscription(const Scene& scene, Size size)
-    : scene_(scene), size_(size), margin_(int(0.4 * letters_of(size))), captioned_(!scene.overlay.caption.empty()) {
+    : scene_(scene), size_(size), margin_(int(0.4 * letters_of(size))), captioned_(has_caption(scene)) {
   const vector<Legend> legends = legends_of(scene);
   if (!captioned_ && legends.empty()) return;
   font_ = make_unique<Font>(find_font());

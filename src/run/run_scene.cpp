@@ -53,7 +53,6 @@ class Run {
     if (!stages_.have_drawings()) return simulate({});
     if (!settings_.replay) return draws_by_record() ? simulate_then_draw() : simulate_and_draw();
     simulate({});
-    stages_.take_end(tally().end);
     draw_by([this] { return settings_.replay(scene_); }, false);
   }
 
@@ -180,9 +179,9 @@ class Run {
     record_->keep_whole();
     vector<MotionSink*> sinks;
 
-    // Where the end is not awaited, the instants of the pictures are known, and cameras frame them on the way.
+    // Where nothing is awaited, the instants of the pictures are known, and cameras frame them on the way.
     optional<Framing> framing;
-    if (!may_stop(scene_) && !checkpoints_.goes_on()) {
+    if (!may_stop(scene_) && !stages_.await_motion() && !checkpoints_.goes_on()) {
       stages_.begin_drawings();
       framing.emplace(drawings_.framing_cameras());
       if (framing->any()) sinks.push_back(&*framing);
@@ -190,7 +189,6 @@ class Run {
 
     simulate(sinks);
     if (framing) framing->finish();
-    stages_.take_end(tally().end);
     const auto motion = [this] {
       return replay_from(make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
     };
@@ -199,6 +197,7 @@ class Run {
 
   /// Draws by recorded motions, on a thread of its own if there is one. framed: cameras have been given the motion.
   void draw_by(const MakeMotion& motion, bool framed) {
+    stages_.take_motion(tally().end, motion);
     stages_.begin_drawings();
     const auto draw = [&] { drawings_.draw(motion, framed); };
     DrawingThread drawing(draw);

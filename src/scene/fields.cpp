@@ -363,6 +363,10 @@ constexpr Field trails_fields[] = {
     row<TrailKeys, &TrailKeys::on>("on", "Balls, bodies, groups and members that have a trail. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that have a trail", .pattern = reference}),
 };
 
+constexpr Field slow_fields[] = {
+    row<SlowSettings, &SlowSettings::around>("around", "auto: the first collision in the time that the film shows. A ball, body, group or member (gas.3): the first one of these. none: no slow motion.", "red", {.type = Type::name, .title = "Whose collision", .pattern = reference}),
+};
+
 constexpr Field ambient = row("ambient", "Colour of the ambient light, which comes from all directions.", "dimgray", {.type = Type::color});
 
 constexpr Field light_fields[] = {
@@ -422,6 +426,7 @@ constexpr Kind kinds_of_scenes[] = {
     {"light", "a", "A light.", light_fields, &ambient},
     {"coloring", "", "Colours of bodies by a quantity, with a legend in the picture.", coloring_fields},
     {"trails", "", "Trails of bodies.", trails_fields},
+    {"slow", "", "Slow motion around a collision.", slow_fields},
 };
 
 /// The rows, completed with the defaults of their members, the rows of the outputs, and the kinds that they name.

@@ -43,11 +43,18 @@ struct PictureOutput {
   friend bool operator==(const PictureOutput&, const PictureOutput&) = default;
 };
 struct FramesOutput : PictureOutput {};
+/// Slow motion around the first collision in the time that a film shows.
+struct SlowSettings {
+  string around = "auto";       // as in the file: the name of bodies, auto or none
+  Entity first = 0, count = 0;  // these bodies; count 0: any
+};
 struct VideoOutput : PictureOutput {
   string file = "animation.mp4";  // a plain file name; its ending chooses the format (film_format.h)
   int crf = 18;
   /// Seconds of motion a second of film. Picture i shows the time from + i * speed / fps.
   double speed = 1;
+  optional<SlowSettings> slow{};
+  bool sound = false;  // of collisions
 };
 
 struct SheetOutput {

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/fields.h"
 #include "scene/member.h"
 #include "std.h"
 
@@ -72,6 +73,8 @@ constexpr Field video_fields[] = {
     with(film_from, fills<VideoOutput, &VideoOutput::from>),
     with(until, fills<VideoOutput, &VideoOutput::until>),
     row<VideoOutput, &VideoOutput::speed>("speed", "Seconds of motion a second of film; 0.125 is eightfold slow motion.", "0.125", {.range = {1e-6, 1e6}, .title = "Seconds of motion a second of film"}),
+    row_if_given<VideoOutput, &VideoOutput::slow>("slow", "Slow motion around a collision, eased in and out, with its factor in the caption. A word alone is `around`.", "auto", {.of = "slow", .plain = "around"}),
+    row<VideoOutput, &VideoOutput::sound>("sound", "A click at each collision: louder with its impulse, higher with smaller bodies. Only of an .mp4.", "true", {.title = "Sound of collisions"}),
 };
 
 constexpr Field sheet_fields[] = {
@@ -287,9 +290,8 @@ Field OutputKind::field() const {
 }
 
 nlohmann::ordered_json OutputKind::settings(const Output& output) const {
-  const Kind map{name, "", keys_doc, keys};
   Field whole = field();
-  whole.held = &map;
+  whole.held = find_kind(name);
   return member.key.json(&output, whole);
 }
 

@@ -5,6 +5,7 @@
 #include "physics/state.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/film_clock.h"
 #include "scene/former_state.h"
 #include "scene/mesh_turn.h"
 #include "scene/output.h"
@@ -181,6 +182,8 @@ struct Scene {
   Output requested;
   /// In s: where the run is known to end, if that is before its duration. The loader does not know.
   optional<double> ends_at{};
+  /// The collision around which the film slows down, once the motion is known. The loader does not know.
+  optional<Slowdown> slows_at{};
   vector<MeshFile> meshes;  // each file once
   MadeFrom made_from;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
@@ -198,6 +201,19 @@ bool may_stop(const Scene& scene);
 /// Whether the camera frames the whole motion.
 inline bool frames_motion(const Scene& scene) {
   return !scene.camera || scene.camera->fit;
+}
+
+/// Whether a film of the scene slows down around a collision, whichever outputs --only leaves.
+inline bool slows_down(const Scene& scene) {
+  return (scene.output.video && scene.output.video->slow) || (scene.requested.video && scene.requested.video->slow);
+}
+/// The same for a film that has the sound of collisions.
+inline bool sounds(const Scene& scene) {
+  return (scene.output.video && scene.output.video->sound) || (scene.requested.video && scene.requested.video->sound);
+}
+/// The clock of a film of the scene.
+inline FilmClock clock_of(const Scene& scene, const VideoOutput& video) {
+  return {video.speed, video.from, video.slow ? scene.slows_at : nullopt};
 }
 
 /// Whether bodies are coloured by the number of their collisions.
