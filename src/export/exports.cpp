@@ -102,8 +102,12 @@ struct Exports::Impl {
     if (output.frames) frames.emplace(*folder, min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(scene).size);
-    for (size_t i = 0; i < plan.streams.size(); ++i)
+    for (size_t i = 0; i < plan.streams.size(); ++i) {
       plan.streams[i].timeline_stream = drawings->timeline().add(plan.ticks[i]);
+      if (plan.uses[i].film && output.video->sound)
+        film->open_sound(scene.world, clock_of(scene, *output.video),
+                         double(plan.ticks[i].count()) / output.video->fps);
+    }
   }
 
   /// The files of a former run that are not drawn and are still requested.
@@ -228,6 +232,14 @@ void Exports::end_drawings_at(double time) {
 
 const vector<PictureStream>& Exports::pictures() const {
   return impl_->plan.streams;
+}
+
+void Exports::record_drawings(span<const Collision> collisions, span<const PathPiece> pieces) {
+  impl_->drawings->record(collisions);
+  impl_->drawings->record_paths(pieces);
+  if (!impl_->film) return;
+  impl_->film->record(collisions);
+  impl_->film->record_paths(pieces);
 }
 
 void Exports::picture(size_t stream, const Image& image, bool again) {

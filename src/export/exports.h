@@ -66,6 +66,8 @@ class Exports {
   /// Ends the timeline of the drawings at `time` (s), before the duration (timeline.h). Throws ExportError if pictures
   /// then have none.
   void end_drawings_at(double time);
+  /// Take what drawings have been given since the last call, in order.
+  void record_drawings(span<const Collision> collisions, span<const PathPiece> pieces);
   /// Copies the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
   /// Other threads encode and write it. An error of theirs is thrown by a later call, or by finish().
   void picture(size_t stream, const Image& image, bool again = false);
