@@ -44,7 +44,8 @@ string draw(const PlannedScene& planned, double time, bool quiet) {
   }
 
   // The camera frames the instants of the film, too.
-  if (frames_motion(scene) && slows_down(scene)) scene.slows_at = find_slowdown(scene, motion, stop_if_interrupted);
+  if (frames_motion(scene) && slows_down(scene))
+    scene.known.slows_at = find_slowdown(scene, motion, stop_if_interrupted);
 
   const string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));

@@ -256,6 +256,13 @@ uint64_t Exports::frames() const {
   return impl_->pictures;
 }
 
+uint64_t Exports::planned_frames() const {
+  uint64_t planned = 0;
+  for (size_t i = 0; i < impl_->plan.uses.size(); ++i)
+    if (impl_->plan.uses[i].frames || impl_->plan.uses[i].film) planned += uint64_t(impl_->plan.ticks[i].count());
+  return planned;
+}
+
 vector<LeftOut> Exports::left_out() const {
   vector<LeftOut> left_out;
   for (const Writer* writer : impl_->writers())

@@ -59,7 +59,7 @@ class Exports {
   /// Whether there is anything to draw: pictures, or outputs that take their first state only when the whole motion is
   /// known.
   bool draws() const;
-  /// Opens these. If the run ends before its duration and that is known, scene.ends_at has it by now.
+  /// Opens these. If the run ends before its duration and that is known, scene.known.ends_at has it by now.
   void begin_drawings();
   OutputPart& drawings();
   const vector<PictureStream>& pictures() const;
@@ -73,6 +73,8 @@ class Exports {
   void picture(size_t stream, const Image& image, bool again = false);
   /// The pictures taken so far for frames and video. Those of the sheet do not count. Any thread may ask.
   uint64_t frames() const;
+  /// As many as there will be, as far as is known: a film that slows down is longer once that is.
+  uint64_t planned_frames() const;
 
   /// The files that were given up, after all parts have ended.
   vector<LeftOut> left_out() const;

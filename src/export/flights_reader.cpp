@@ -47,6 +47,7 @@ void FlightsReader::take_header(uint64_t size, const Scene& scene) {
   if (take<uint32_t>() != version) refuse(fmt::format("another version of carom wrote it\n  {}", run_again(path_)));
   if (take<uint32_t>() != byte_order) refuse("it is damaged");
   if (size < header_size + tail_size) refuse("it is truncated");
+
   const auto bodies = take<uint64_t>();
   has_collisions_ = (bodies & collisions_bit) != 0;
   has_impulses_ = (bodies & impulses_bit) != 0;

@@ -102,7 +102,7 @@ Forecast forecast(const Scene& scene) {
   const PictureStreams plan = plan_pictures(scene);
   for (size_t i = 0; i < plan.streams.size(); ++i) {
     // Where a slowdown is not known yet, the most pictures that it may add.
-    const bool longer = plan.uses[i].film && output.video->slow && !scene.slows_at;
+    const bool longer = plan.uses[i].film && output.video->slow && !scene.known.slows_at;
     const double count = double(plan.ticks[i].count()) + (longer ? floor(most_delay() * output.video->fps) : 0);
     const double area = pixels(plan.streams[i].size);
     frames += count;

@@ -263,6 +263,7 @@ bool PathCodec::read(ColumnReader& from, Recorded& recorded) {
     recorded.kind = Recorded::Kind::collision;
     CollisionMark& mark = recorded.collision;
     mark.kind = static_cast<CollisionKind>(side.shape);
+
     side.entity(Column::other, collision_.a, mark.a, present_.size());
     side.entity(Column::other, collision_.b, mark.b, entities_);
     mark.time = from.difference(Column::time, collision_.time);

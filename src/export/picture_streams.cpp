@@ -21,7 +21,7 @@ Ticks ticks_of(const FramesOutput& frames, double duration) {
 
 Ticks ticks_of(const Scene& scene, const VideoOutput& video, double duration) {
   return Ticks::film(video.fps, video.speed, video.from, end_of(video.until, duration),
-                     video.slow ? scene.slows_at : nullopt);
+                     video.slow ? scene.known.slows_at : nullopt);
 }
 
 Ticks ticks_of(const SheetOutput& sheet, double duration) {

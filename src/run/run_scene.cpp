@@ -214,8 +214,8 @@ class Run {
   }
 
   void report_progress(RunProgress::Phase phase) const {
-    watch_.report_progress(
-        {phase, simulated_.simulator->time(), tally().collisions(), stages_.pictures(), checkpoints_.begun_at()});
+    watch_.report_progress({phase, simulated_.simulator->time(), tally().collisions(), stages_.pictures(),
+                            checkpoints_.begun_at(), stages_.planned_pictures()});
   }
 
   const Scene& scene_;  // one of those that share the motion

@@ -140,8 +140,8 @@ bool Stages::draw_after_motion() const {
 
 void Stages::take_motion(const optional<RunEnd>& end, const function<unique_ptr<Simulator>()>& motion) {
   for (Scene& scene : awaiting_) {
-    if (end && end->time < scene.simulate.duration) scene.ends_at = end->time;
-    if (slows_down(scene) && have_drawings()) scene.slows_at = find_slowdown(scene, motion, stop_check_);
+    if (end && end->time < scene.simulate.duration) scene.known.ends_at = end->time;
+    if (slows_down(scene) && have_drawings()) scene.known.slows_at = find_slowdown(scene, motion, stop_check_);
   }
 }
 
@@ -155,6 +155,13 @@ uint64_t Stages::pictures() const {
   uint64_t pictures = 0;
   for (const auto& stage : stages_)
     if (stage) pictures += stage->exports.frames();
+  return pictures;
+}
+
+uint64_t Stages::planned_pictures() const {
+  uint64_t pictures = 0;
+  for (const auto& stage : stages_)
+    if (stage) pictures += stage->exports.planned_frames();
   return pictures;
 }
 

@@ -59,6 +59,8 @@ class Stages {
 
   /// The pictures of all so far.
   uint64_t pictures() const;
+  /// All that they will draw, as far as is known.
+  uint64_t planned_pictures() const;
   /// Finishes the folders. Results are in the order of the shows.
   vector<RunResult> finish(const Simulated& done);
 

@@ -29,7 +29,7 @@ bool has_name(string_view caption, string_view name);
 /// The caption of one picture.
 struct CaptionValues {
   string title, time, run, collisions;
-  string slow;  // "1/8 speed"; empty: the film is not slow
+  string slow{};  // "1/8 speed"; empty: the film is not slow
 };
 /// A caption without {slow} ends with it.
 string caption_text(string_view caption, const CaptionValues& values);

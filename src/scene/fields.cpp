@@ -363,10 +363,6 @@ constexpr Field trails_fields[] = {
     row<TrailKeys, &TrailKeys::on>("on", "Balls, bodies, groups and members that have a trail. Default: all.", "[red, gas.3]", {.type = Type::names, .title = "Bodies that have a trail", .pattern = reference}),
 };
 
-constexpr Field slow_fields[] = {
-    row<SlowSettings, &SlowSettings::around>("around", "auto: the first collision in the time that the film shows. A ball, body, group or member (gas.3): the first one of these. none: no slow motion.", "red", {.type = Type::name, .title = "Whose collision", .pattern = reference}),
-};
-
 constexpr Field ambient = row("ambient", "Colour of the ambient light, which comes from all directions.", "dimgray", {.type = Type::color});
 
 constexpr Field light_fields[] = {
@@ -426,7 +422,6 @@ constexpr Kind kinds_of_scenes[] = {
     {"light", "a", "A light.", light_fields, &ambient},
     {"coloring", "", "Colours of bodies by a quantity, with a legend in the picture.", coloring_fields},
     {"trails", "", "Trails of bodies.", trails_fields},
-    {"slow", "", "Slow motion around a collision.", slow_fields},
 };
 
 /// The rows, completed with the defaults of their members, the rows of the outputs, and the kinds that they name.
@@ -443,6 +438,7 @@ class FormatTable {
       map.beneath = kind.beneath;
       add(scenes_, map);
     }
+    for (const Kind& kind : kinds_below_outputs()) add(scenes_, kind);
     for (const Kind& kind : sweep_rows()) add(sweeps_, kind);
 
     for (vector<Field>& fields : fields_)

@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/fields.h"
 #include "scene/member.h"
 #include "std.h"
 
@@ -64,6 +63,11 @@ constexpr Field frames_fields[] = {
     with(until, fills<FramesOutput, &FramesOutput::until>),
 };
 
+constexpr Field slow_fields[] = {
+    row<SlowSettings, &SlowSettings::around>("around", "auto: the first collision in the time that the film shows. A ball, body, group or member (gas.3): the first one of these. none: no slow motion.", "red", {.type = Type::name, .title = "Whose collision", .pattern = reference}),
+};
+constexpr Kind kinds_below[] = {{"slow", "", "Slow motion around a collision.", slow_fields}};
+
 constexpr Field video_fields[] = {
     row<VideoOutput, &VideoOutput::file>("file", "Name of the file, ending in .mp4 (H.264), .gif or .webp.", "break.mp4", {.pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)"}),
     with(film_fps, fills<VideoOutput, &VideoOutput::fps>),
@@ -73,7 +77,7 @@ constexpr Field video_fields[] = {
     with(film_from, fills<VideoOutput, &VideoOutput::from>),
     with(until, fills<VideoOutput, &VideoOutput::until>),
     row<VideoOutput, &VideoOutput::speed>("speed", "Seconds of motion a second of film; 0.125 is eightfold slow motion.", "0.125", {.range = {1e-6, 1e6}, .title = "Seconds of motion a second of film"}),
-    row_if_given<VideoOutput, &VideoOutput::slow>("slow", "Slow motion around a collision, eased in and out, with its factor in the caption. A word alone is `around`.", "auto", {.of = "slow", .plain = "around"}),
+    row_if_given<VideoOutput, &VideoOutput::slow>("slow", "Slow motion around a collision, eased in and out, with its factor in the caption. A word alone is `around`.", "auto", {.of = "slow", .plain = "around", .held = kinds_below}),
     row<VideoOutput, &VideoOutput::sound>("sound", "A click at each collision: louder with its impulse, higher with smaller bodies. Only of an .mp4.", "true", {.title = "Sound of collisions"}),
 };
 
@@ -290,8 +294,9 @@ Field OutputKind::field() const {
 }
 
 nlohmann::ordered_json OutputKind::settings(const Output& output) const {
+  const Kind map{name, "", keys_doc, keys};
   Field whole = field();
-  whole.held = find_kind(name);
+  whole.held = &map;
   return member.key.json(&output, whole);
 }
 
@@ -302,6 +307,10 @@ bool OutputKind::has_file(string_view file) const {
 
 span<const OutputKind> output_kinds() {
   return all_kinds;
+}
+
+span<const Kind> kinds_below_outputs() {
+  return kinds_below;
 }
 
 Output restricted(const Output& requested, const vector<string>& only) {

@@ -162,6 +162,12 @@ struct MadeFrom {
   vector<string> notes{};
 };
 
+/// What the motion tells of a scene. The loader does not know it.
+struct KnownMotion {
+  optional<double> ends_at{};     // s: where the run ends, if that is before its duration
+  optional<Slowdown> slows_at{};  // the collision around which the film slows down
+};
+
 struct Scene {
   string file;  // as given on the command line
   string title;
@@ -180,10 +186,7 @@ struct Scene {
   Measures measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
-  /// In s: where the run is known to end, if that is before its duration. The loader does not know.
-  optional<double> ends_at{};
-  /// The collision around which the film slows down, once the motion is known. The loader does not know.
-  optional<Slowdown> slows_at{};
+  KnownMotion known{};
   vector<MeshFile> meshes;  // each file once
   MadeFrom made_from;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
@@ -192,7 +195,7 @@ struct Scene {
 
 /// The end of the run as far as it is known (s).
 inline double end_of(const Scene& scene) {
-  return scene.ends_at.value_or(scene.simulate.duration);
+  return scene.known.ends_at.value_or(scene.simulate.duration);
 }
 
 /// Whether the run may end before its duration.
@@ -213,7 +216,7 @@ inline bool sounds(const Scene& scene) {
 }
 /// The clock of a film of the scene.
 inline FilmClock clock_of(const Scene& scene, const VideoOutput& video) {
-  return {video.speed, video.from, video.slow ? scene.slows_at : nullopt};
+  return {video.speed, video.from, video.slow ? scene.known.slows_at : nullopt};
 }
 
 /// Whether bodies are coloured by the number of their collisions.

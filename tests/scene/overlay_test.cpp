@@ -51,6 +51,13 @@ TEST(Caption, HasTwoBracesForOne) {
             "{time} = 0.5, {1}");
 }
 
+TEST(Caption, EndsWithHowSlowTheFilmIs) {
+  EXPECT_EQ(caption_text("{title}   {time} s", {"A ball", "0.5", "", "", "1/8 speed"}), "A ball   0.5 s   1/8 speed");
+  EXPECT_EQ(caption_text("{slow}: {title}", {"A ball", "0.5", "", "", "1/8 speed"}), "1/8 speed: A ball");
+  EXPECT_EQ(caption_text("", {"A ball", "0.5", "", "", "1/8 speed"}), "1/8 speed");
+  EXPECT_EQ(caption_text("{title}", {"A ball", "0.5", "", "", ""}), "A ball");
+}
+
 TEST(Caption, OfTheResolvedSceneIsTheSame) {
   LoadOptions options;
   options.set = {"defaults.ball.mass=7", "caption=m = {defaults.ball.mass}, {time}"};
