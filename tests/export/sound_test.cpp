@@ -196,6 +196,7 @@ TEST(Film, HasItsSoundInStep) {
   const vector<float> heard = decoded(film);
   const Sound made = sound_of(collisions, 2);
   ASSERT_GE(heard.size(), made.samples.size());
+
   int best = 1000;
   double most = 0;
   for (int lag = -48; lag <= 48; ++lag) {
