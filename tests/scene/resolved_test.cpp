@@ -195,7 +195,8 @@ const string brief_resolved =
     "quality: normal}}\n"
     "output:\n"
     "  collisions: false\n"
-    "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1, sound: false}\n";
+    "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1, sound: "
+    "false}\n";
 
 TEST(ResolvedScene, HasEveryDefaultWrittenOut) {
   EXPECT_EQ(load_text(brief).resolved, brief_resolved);
