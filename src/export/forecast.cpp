@@ -32,6 +32,8 @@ constexpr double film_pixel_bytes = 0.0002;
 constexpr double film_body_bytes = 0.1;
 // Of a pixel of a crowd: 0.073 with 2,000 balls in gas_in_a_room, most of them hidden.
 constexpr double film_most_bytes = 0.08;
+// Of a second of sound: AAC of 128 kbit/s.
+constexpr double sound_bytes = 16e3;
 // Other formats in the bytes of an MP4: 4 to 11 and 1.0 to 1.9.
 constexpr double gif_bytes = 6.5, webp_bytes = 1.4;
 
@@ -112,6 +114,7 @@ Forecast forecast(const Scene& scene) {
     if (plan.uses[i].film) seconds += count * area * film_pixel_s;
     if (plan.uses[i].frames || plan.uses[i].sheet) bytes += count * png_bytes(area, bodies);
     if (plan.uses[i].film) bytes += count * film_bytes(*output.video, area, bodies);
+    if (plan.uses[i].film && output.video->sound) bytes += count / output.video->fps * sound_bytes;
   }
   return {whole(rows), whole(frames), whole(bytes), seconds};
 }
