@@ -235,7 +235,10 @@ string steps_text(double steps) {
 string to_come_text(const PlannedScene& planned, const Findings& findings) {
   const optional<double> seconds = seconds_to_come(planned, findings);
   const optional<double> steps = steps_of(*planned.scene);
-  return fmt::format("{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
+  // How many more a film has that slows down is known with the motion.
+  const auto& video = planned.scene->output.video;
+  return fmt::format("{}{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
+                     video && video->slow ? "at most " : "",
                      counted(planned.price.forecast.frames, "picture", "pictures"),
                      counted(planned.price.forecast.rows, "trajectory row", "trajectory rows"),
                      bytes_text(bytes_to_come(planned, findings)),

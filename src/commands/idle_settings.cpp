@@ -34,7 +34,7 @@ string written_text(const Scene& scene) {
   if (!scene.output.sheet) return outputs;
   const PictureStream picture = still_stream(scene, 0);
   return fmt::format("{} {} {} {} {} {}", outputs, picture.size.width, picture.size.height, picture.samples,
-                     picture.interval, picture.speed);
+                     picture.interval, picture.clock.speed());
 }
 
 bool draws(const Output& output) {

@@ -74,7 +74,7 @@ class PlotPlanner {
     planned.scene->output = restricted(planned.scene->output, outputs);
     planned.scene->file = former->scene.file;
     if (const double end = former->read_end_time(); end < planned.scene->simulate.duration)
-      planned.scene->ends_at = end;
+      planned.scene->known.ends_at = end;
 
     former->scene = {};
     refuse_other_file(planned.folder);

@@ -37,14 +37,16 @@ RunSettings settings_of(const PlannedScene& planned, const Options& options) {
 function<unique_ptr<Simulator>(const Scene&)> replay_of(const PlannedScene& planned, const OverlayNeeds& needs,
                                                         bool quiet) {
   const FormerRun& former = *planned.former;
-  const bool collisions = needs.collisions || needs.collision_counts;
+  const bool of_pictures = needs.collisions || needs.collision_counts;
+  const bool collisions = of_pictures || slows_down(*planned.scene) || sounds(*planned.scene);
   if (collisions ? former.has_flights_with_collisions(*planned.scene) : former.has_flights())
     return [&former](const Scene& scene) { return former.replay(scene); };
 
   if (!quiet)
     write_err(fmt::format("{}: {}: simulating again\n", printable(former.folder),
-                          former.has_flights() ? "the pictures show collisions, which its flights do not hold"
-                                               : "no flights are stored"));
+                          !former.has_flights() ? "no flights are stored"
+                          : of_pictures         ? "the pictures show collisions, which its flights do not hold"
+                                                : "the film needs collisions, which its flights do not hold"));
   return {};
 }
 

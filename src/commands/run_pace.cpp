@@ -48,6 +48,7 @@ void RunPace::note(double elapsed, const RunProgress& progress) {
       break;
 
     case Phase::drawing:
+      if (progress.planned > 0) ahead_.pictures = progress.planned;
       drawing_.note(ahead_.draws_after ? in_phase : elapsed, double(progress.pictures));
       left_ = drawing_left();
       break;

@@ -50,7 +50,7 @@ class RunPace {
   double simulation_left();
   double drawing_left();
 
-  const RunAhead ahead_;
+  RunAhead ahead_;
   RunProgress now_{RunProgress::Phase::settling};
   double elapsed_ = 0, phase_from_ = 0;  // s
   Pace simulating_, drawing_;

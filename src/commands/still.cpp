@@ -12,6 +12,7 @@
 #include "overlay/history.h"
 #include "run/accuracy.h"
 #include "run/motion_record.h"
+#include "run/slow_spot.h"
 #include "run/still.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -31,7 +32,7 @@ function<unique_ptr<Simulator>()> simulated(const Scene& scene, const EngineChoi
 }
 
 string draw(const PlannedScene& planned, double time, bool quiet) {
-  const Scene& scene = *planned.scene;
+  Scene& scene = *planned.scene;
   FolderWriter folder(planned.folder);
   EngineChoice engine = planned.price.engine;
   const function<unique_ptr<Simulator>(const Scene&)> replay = replay_of(planned, picture_needs(scene), quiet);
@@ -41,6 +42,10 @@ string draw(const PlannedScene& planned, double time, bool quiet) {
     settle_steps(scene, engine, stop_if_interrupted);
     motion = simulated(scene, engine, folder.place());
   }
+
+  // The camera frames the instants of the film, too.
+  if (frames_motion(scene) && slows_down(scene))
+    scene.known.slows_at = find_slowdown(scene, motion, stop_if_interrupted);
 
   const string picture =
       encode_png(draw_still(scene, name_of_folder(planned.folder), time, motion, stop_if_interrupted));

@@ -19,6 +19,7 @@
 #include "files/mesh_copies.h"
 #include "files/processors.h"
 #include "files/series_folders.h"
+#include "scene/film_layout.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -102,8 +103,13 @@ struct Exports::Impl {
     if (output.frames) frames.emplace(*folder, min(share_of_processors(), most_encoders));
     if (output.video) film.emplace(folder->place(), *output.video, std::move(*tools));
     if (output.sheet) sheet.emplace(*output.sheet, sheet_model(scene).size);
-    for (size_t i = 0; i < plan.streams.size(); ++i)
+    for (size_t i = 0; i < plan.streams.size(); ++i) {
       plan.streams[i].timeline_stream = drawings->timeline().add(plan.ticks[i]);
+      if (!plan.uses[i].film || !output.video->sound) continue;
+      const double lead = double(title_pictures(*output.video)) / output.video->fps;
+      film->open_sound(scene.world, clock_of(scene, *output.video), lead,
+                       lead + double(plan.ticks[i].count()) / output.video->fps);
+    }
   }
 
   /// The files of a former run that are not drawn and are still requested.
@@ -230,6 +236,14 @@ const vector<PictureStream>& Exports::pictures() const {
   return impl_->plan.streams;
 }
 
+void Exports::record_drawings(span<const Collision> collisions, span<const PathPiece> pieces) {
+  impl_->drawings->record(collisions);
+  impl_->drawings->record_paths(pieces);
+  if (!impl_->film) return;
+  impl_->film->record(collisions);
+  impl_->film->record_paths(pieces);
+}
+
 void Exports::picture(size_t stream, const Image& image, bool again) {
   const auto number = impl_->drawings->timeline().due(impl_->plan.streams.at(stream).timeline_stream);
   if (!number) return;
@@ -251,6 +265,13 @@ void Exports::title_picture(const Image& image) {
 
 uint64_t Exports::frames() const {
   return impl_->pictures;
+}
+
+uint64_t Exports::planned_frames() const {
+  uint64_t planned = 0;
+  for (size_t i = 0; i < impl_->plan.uses.size(); ++i)
+    if (impl_->plan.uses[i].frames || impl_->plan.uses[i].film) planned += uint64_t(impl_->plan.ticks[i].count());
+  return planned;
 }
 
 vector<LeftOut> Exports::left_out() const {

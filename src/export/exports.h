@@ -59,13 +59,15 @@ class Exports {
   /// Whether there is anything to draw: pictures, or outputs that take their first state only when the whole motion is
   /// known.
   bool draws() const;
-  /// Opens these. If the run ends before its duration and that is known, scene.ends_at has it by now.
+  /// Opens these. If the run ends before its duration and that is known, scene.known.ends_at has it by now.
   void begin_drawings();
   OutputPart& drawings();
   const vector<PictureStream>& pictures() const;
   /// Ends the timeline of the drawings at `time` (s), before the duration (timeline.h). Throws ExportError if pictures
   /// then have none.
   void end_drawings_at(double time);
+  /// Take what drawings have been given since the last call, in order.
+  void record_drawings(span<const Collision> collisions, span<const PathPiece> pieces);
   /// Copies the picture that is due for pictures()[stream]. `again`: it equals the stream's previous one.
   /// Other threads encode and write it. An error of theirs is thrown by a later call, or by finish().
   void picture(size_t stream, const Image& image, bool again = false);
@@ -75,6 +77,8 @@ class Exports {
   void title_picture(const Image& image);
   /// The pictures taken so far for frames and video. Those of the sheet do not count. Any thread may ask.
   uint64_t frames() const;
+  /// As many as there will be, as far as is known: a film that slows down is longer once that is.
+  uint64_t planned_frames() const;
 
   /// The files that were given up, after all parts have ended.
   vector<LeftOut> left_out() const;

@@ -30,8 +30,29 @@ void Film::add(const Image& image) {
   ++frames_;
 }
 
+void Film::open_sound(const World& world, const FilmClock& clock, double lead, double length) {
+  samples_.emplace(file_.workshop(), samples_file);
+  sound_.emplace(world, clock, lead, length, [this](span<const float> samples) {
+    samples_->write({reinterpret_cast<const char*>(samples.data()), samples.size_bytes()});
+  });
+}
+
+void Film::record(span<const Collision> collisions) {
+  if (sound_) sound_->record(collisions);
+}
+
+void Film::record_paths(span<const PathPiece> pieces) {
+  if (sound_) sound_->record_paths(pieces);
+}
+
 void Film::complete() {
   pictures_.finish();
+  if (sound_) {
+    sound_->finish(double(frames_) / video_.fps);
+    samples_->publish();
+    encoding_.runs.push_back(sound_run(SoundTrack::rate, sound_->gain()));
+  }
+
   for (size_t run = 1; run < encoding_.runs.size(); ++run) {
     file_.end_run();
     file_.start(encoding_.runs[run], false);

@@ -23,6 +23,12 @@ FilmEncoding film_encoding(const VideoOutput& video, const Image& picture);
 /// The name of an H.264 film, as the last argument of a run has it.
 inline constexpr const char* h264_file = "film.mp4";
 /// The options of every H.264 film and its name: yuv420p, BT.709, index in front, reproducible bytes.
-FfmpegRun h264_output(int crf);
+FfmpegRun h264_output(int crf, const string& file = h264_file);
+
+/// The samples of a film with sound, in the temporary folder: 32-bit floats of one channel.
+inline constexpr const char* samples_file = "sound.f32";
+/// The run that joins pictures and sound of such a film, after the runs of film_encoding(). The samples are multiplied
+/// by `gain`.
+FfmpegRun sound_run(double rate, double gain);
 
 }  // namespace carom

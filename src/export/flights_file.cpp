@@ -52,10 +52,11 @@ double flight_bytes(double of_events, double of_crowd) {
 
 FlightsFile::FlightsFile(const Scene& scene, uint64_t most)
     : has_collisions_(drawings_show_collisions(scene)),
+      has_impulses_(sounds(scene)),
       world_(scene.world),
       most_(most),
       bytes_(header_size + tail_size + sizeof(double) * scene.world.triggers.all.size()),
-      codec_(scene.world),
+      codec_(scene.world, has_impulses_),
       next_key_(key_share * key_bytes_of_body * scene.world.body_count()) {}
 
 FlightsFile::FlightsFile(const FilePlace& place, const Scene& scene, uint64_t most) : FlightsFile(scene, most) {
@@ -74,7 +75,7 @@ void FlightsFile::begin(const Scene& scene) {
   InPlace writer(file_->room(header_size));
   writer.put(version);
   writer.put(byte_order);
-  writer.put(scene.world.body_count() | (has_collisions_ ? collisions_bit : 0));
+  writer.put(scene.world.body_count() | (has_collisions_ ? collisions_bit : 0) | (has_impulses_ ? impulses_bit : 0));
   writer.put(scene.simulate.duration);
   file_->written(writer.end());
 }

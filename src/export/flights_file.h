@@ -3,7 +3,7 @@
 //
 // The format is little-endian, with doubles as in IEEE 754. A header of 32 bytes comes first:
 //   8 bytes "caromfly", u32 version (8), u32 0x01020304, u64 number of bodies, f64 duration (s)
-// The number of bodies has 2^63 more if collisions are recorded.
+// The number of bodies has 2^63 more if collisions are recorded, and another 2^62 if with their impulses.
 //
 // Then come blocks of entries, sorted by the time from which they hold. Each has a header of 24 bytes:
 //   u32 kind (0 entries; 1 key, 2 more of the same key), u32 entries, u32 bytes that follow,
@@ -25,7 +25,7 @@
 // At a time T let s = (T - hi) - lo. The position is x + s (v + (s/2) a), and the velocity is v + s a. Of a curve let
 // u = s / L. The position is x + c1 u + ... + c8 u^8, the velocity v - p + (2 c2 u + ... + 8 c8 u^7) / L, both by
 // Horner's scheme. A kicked piece has (until - T) kick less velocity.
-// A collision has: kind, a, b, f64 time (s).
+// A collision has: kind, a, b, f64 time (s), and where impulses are recorded f64 impulse (N s).
 //
 // The index has for each key: f64 time (s), u64 place in the file, u64 entries before it.
 // Then come, for each event that sets times of the scene, f64 the first double after it (s), or the greatest double if
@@ -114,6 +114,7 @@ class FlightsFile final : public Writer {
 
   optional<OutputFile> file_;
   const bool has_collisions_;
+  const bool has_impulses_;
   bool keeps_whole_ = false;
   const World& world_;
   uint64_t most_;   // bytes
@@ -142,6 +143,7 @@ class FlightsReader {
   /// Reads the next piece or collision. False: the end. Throws ExportError.
   bool next(Recorded& recorded);
   bool has_collisions() const { return has_collisions_; }
+  bool has_impulses() const { return has_impulses_; }
   const Tally& tally() const { return tally_; }  // at the end of the run
 
  private:
@@ -171,6 +173,7 @@ class FlightsReader {
   uint64_t left_ = 0;      // entries not yet read
   uint32_t in_block_ = 0;  // and those of the present block
   bool has_collisions_ = false;
+  bool has_impulses_ = false;
   ColumnReader columns_;
   PathCodec codec_;
   Tally tally_;

@@ -15,6 +15,7 @@ inline constexpr uint32_t version = 8;
 inline constexpr uint32_t byte_order = 0x01020304;
 inline constexpr uint32_t last_entry = 0xffffffff;
 inline constexpr uint64_t collisions_bit = uint64_t{1} << 63;
+inline constexpr uint64_t impulses_bit = uint64_t{1} << 62;
 
 // Bytes.
 inline constexpr size_t header_size = 32;

@@ -47,10 +47,14 @@ void FlightsReader::take_header(uint64_t size, const Scene& scene) {
   if (take<uint32_t>() != version) refuse(fmt::format("another version of carom wrote it\n  {}", run_again(path_)));
   if (take<uint32_t>() != byte_order) refuse("it is damaged");
   if (size < header_size + tail_size) refuse("it is truncated");
+
   const auto bodies = take<uint64_t>();
   has_collisions_ = (bodies & collisions_bit) != 0;
-  if ((bodies & ~collisions_bit) != scene.world.body_count() || take<double>() != scene.simulate.duration)
+  has_impulses_ = (bodies & impulses_bit) != 0;
+  if ((bodies & ~(collisions_bit | impulses_bit)) != scene.world.body_count() ||
+      take<double>() != scene.simulate.duration)
     refuse("it belongs to another scene");
+  codec_ = PathCodec(scene.world, has_impulses_);
 }
 
 /// Reads the tail, and what comes before it behind the blocks.
@@ -194,7 +198,7 @@ void FlightsReader::read_entry(Recorded& recorded) {
 
 void FlightsReader::check(const CollisionMark& collision) const {
   const bool known = collision.kind <= CollisionKind::taut;
-  if (!known || !has_collisions_ || !isfinite(collision.time)) refuse("it is damaged");
+  if (!known || !has_collisions_ || !isfinite(collision.time) || !isfinite(collision.impulse)) refuse("it is damaged");
 }
 
 void FlightsReader::check(const PathPiece& piece) const {

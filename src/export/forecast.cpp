@@ -33,6 +33,8 @@ constexpr double film_pixel_bytes = 0.0002;
 constexpr double film_body_bytes = 0.1;
 // Of a pixel of a crowd: 0.073 with 2,000 balls in gas_in_a_room, most of them hidden.
 constexpr double film_most_bytes = 0.08;
+// Of a second of sound: AAC of 128 kbit/s.
+constexpr double sound_bytes = 16e3;
 // Other formats in the bytes of an MP4: 4 to 11 and 1.0 to 1.9.
 constexpr double gif_bytes = 6.5, webp_bytes = 1.4;
 
@@ -102,7 +104,9 @@ Forecast forecast(const Scene& scene) {
   double seconds = 0.005 + bytes * table_byte_s + (output.plots ? plots_s : 0);
   const PictureStreams plan = plan_pictures(scene);
   for (size_t i = 0; i < plan.streams.size(); ++i) {
-    const auto count = double(plan.ticks[i].count());
+    // Where a slowdown is not known yet, the most pictures that it may add.
+    const bool longer = plan.uses[i].film && output.video->slow && !scene.known.slows_at;
+    const double count = double(plan.ticks[i].count()) + (longer ? floor(most_delay() * output.video->fps) : 0);
     const double area = pixels(plan.streams[i].size);
     const double cards = plan.uses[i].film ? double(title_pictures(*output.video)) : 0;
     frames += count + cards;
@@ -112,6 +116,7 @@ Forecast forecast(const Scene& scene) {
     if (plan.uses[i].film) seconds += (count + cards) * area * film_pixel_s;
     if (plan.uses[i].frames || plan.uses[i].sheet) bytes += count * png_bytes(area, bodies);
     if (plan.uses[i].film) bytes += (count + cards) * film_bytes(*output.video, area, bodies);
+    if (plan.uses[i].film && output.video->sound) bytes += (count + cards) / output.video->fps * sound_bytes;
   }
   return {whole(rows), whole(frames), whole(bytes), seconds};
 }

@@ -7,7 +7,8 @@ namespace carom {
 
 struct Scene;
 
-/// The numbers of trajectory rows and pictures, a rough estimate of the bytes, and of the time for writing and drawing.
+/// The numbers of trajectory rows and pictures (the most, where a film slows down at an unknown time), a rough estimate
+/// of the bytes, and of the time for writing and drawing.
 struct Forecast {
   uint64_t rows = 0, frames = 0, bytes = 0;
   double seconds = 0;

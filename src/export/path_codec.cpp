@@ -10,7 +10,7 @@
 //   shape   bits of EntryShape; of a collision its kind
 //   others  what the shape says that the prediction lacks, in the order of the calls
 // A collision has a and b in `other`, less those of the collision before, folded, and the difference of its time to
-// that one's.
+// that one's. Where impulses are recorded, the difference of its impulse to that one's comes after it in `velocity`.
 #include "export/path_codec.h"
 
 #include <cstring>
@@ -216,8 +216,12 @@ struct PathCodec::Side {
   }
 };
 
-PathCodec::PathCodec(const World& world)
-    : entities_(world.entity_count()), present_(world.body_count()), mass_(world.mass), radius_(world.radius) {}
+PathCodec::PathCodec(const World& world, bool impulses)
+    : entities_(world.entity_count()),
+      impulses_(impulses),
+      present_(world.body_count()),
+      mass_(world.mass),
+      radius_(world.radius) {}
 
 void PathCodec::begin_block(double time) {
   body_ = no_entity;
@@ -247,6 +251,7 @@ void PathCodec::write(ColumnWriter& to, const CollisionMark& collision) {
   to.number(Column::other, fold(number_of(collision.a) - number_of(collision_.a)));
   to.number(Column::other, fold(number_of(collision.b) - number_of(collision_.b)));
   to.difference(Column::time, collision_.time, collision.time);
+  if (impulses_) to.difference(Column::velocity, collision_.impulse, collision.impulse);
   collision_ = collision;
 }
 
@@ -258,9 +263,11 @@ bool PathCodec::read(ColumnReader& from, Recorded& recorded) {
     recorded.kind = Recorded::Kind::collision;
     CollisionMark& mark = recorded.collision;
     mark.kind = static_cast<CollisionKind>(side.shape);
+
     side.entity(Column::other, collision_.a, mark.a, present_.size());
     side.entity(Column::other, collision_.b, mark.b, entities_);
     mark.time = from.difference(Column::time, collision_.time);
+    if (impulses_) mark.impulse = from.difference(Column::velocity, collision_.impulse);
     collision_ = mark;
     return !side.damaged && !from.damaged();
   }

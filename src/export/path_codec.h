@@ -32,8 +32,8 @@ struct PredictedImpact {
 /// bodies.
 class PathCodec {
  public:
-  /// For a run in this world.
-  explicit PathCodec(const World& world);
+  /// For a run in this world. impulses: collisions have theirs.
+  explicit PathCodec(const World& world, bool impulses = false);
 
   /// Begins a block at `time` (s). Nothing but the present pieces is known from before.
   void begin_block(double time);
@@ -82,6 +82,7 @@ class PathCodec {
   PredictedImpact impact_between(const PathPiece& piece, const PathPiece* next, const World& world) const;
 
   size_t entities_;  // bodies and all that they meet
+  bool impulses_;
   vector<PathPiece> present_;
   vector<double> mass_;    // kg, by body
   vector<double> radius_;  // m, by body

@@ -20,18 +20,19 @@ Ticks ticks_of(const FramesOutput& frames, double duration) {
   return Ticks::rate(frames.fps, frames.from, end_of(frames.until, duration));
 }
 
-Ticks ticks_of(const VideoOutput& video, double duration) {
-  return Ticks::film(video.fps, video.speed, video.from, end_of(video.until, duration));
+Ticks ticks_of(const Scene& scene, const VideoOutput& video, double duration) {
+  return Ticks::film(video.fps, video.speed, video.from, end_of(video.until, duration),
+                     video.slow ? scene.known.slows_at : nullopt);
 }
 
 Ticks ticks_of(const SheetOutput& sheet, double duration) {
   return Ticks::even(int64_t{sheet.columns} * sheet.rows, sheet.from, end_of(sheet.until, duration));
 }
 
-void add(PictureStreams& plan, Size size, const PictureOutput& model, double speed, const Ticks& ticks,
+void add(PictureStreams& plan, Size size, const PictureOutput& model, const FilmClock& clock, const Ticks& ticks,
          const PictureUse& use) {
   const int number = int(plan.streams.size());
-  plan.streams.push_back({size, model.samples, number, speed / model.fps, speed, ticks.decimals()});
+  plan.streams.push_back({size, model.samples, number, clock.speed() / model.fps, ticks.decimals(), clock});
   plan.uses.push_back(use);
   plan.ticks.push_back(ticks);
 }
@@ -41,16 +42,16 @@ const Output& models_of(const Scene& scene) {
   return scene.requested.frames || scene.requested.video ? scene.requested : scene.output;
 }
 
-/// The speed of sheet_model().
-double model_speed(const Scene& scene) {
+/// The clock of sheet_model(), apart from a slowdown: pictures of the sheet are at even times.
+FilmClock model_clock(const Scene& scene) {
   const Output& models = models_of(scene);
-  return models.frames || !models.video ? 1 : models.video->speed;
+  return models.frames || !models.video ? FilmClock() : FilmClock(models.video->speed, 0);
 }
 
 /// Whether the pictures of the frames are those of the film.
 bool shows_film(const Scene& scene, const PictureStream& frames, const Ticks& of_frames, const Ticks& of_film) {
   const VideoOutput& video = *scene.output.video;
-  const bool same_flashes = !scene.overlay.flash || frames.speed == video.speed;
+  const bool same_flashes = !scene.overlay.flash || frames.clock.speed() == video.speed;
   const bool same_blur = scene.overlay.shutter == 0 || frames.interval == video.speed / video.fps;
   return !video.chart && frames.size == video.size && frames.samples == video.samples &&
          of_frames.has_times_of(of_film) && same_flashes && same_blur;
@@ -66,8 +67,8 @@ PictureOutput sheet_model(const Scene& scene) {
 
 PictureStream still_stream(const Scene& scene, double time) {
   const PictureOutput model = sheet_model(scene);
-  const double speed = model_speed(scene);
-  return {model.size, model.samples, 0, speed / model.fps, speed, Ticks::even(1, time, time).decimals()};
+  const FilmClock clock = model_clock(scene);
+  return {model.size, model.samples, 0, clock.speed() / model.fps, Ticks::even(1, time, time).decimals(), clock};
 }
 
 vector<Ticks> shown_instants(const Scene& scene) {
@@ -75,7 +76,7 @@ vector<Ticks> shown_instants(const Scene& scene) {
   const double duration = end_of(scene);
   vector<Ticks> instants;
   if (output.frames) instants.push_back(ticks_of(*output.frames, duration));
-  if (output.video) instants.push_back(ticks_of(*output.video, duration));
+  if (output.video) instants.push_back(ticks_of(scene, *output.video, duration));
   if (output.sheet) instants.push_back(ticks_of(*output.sheet, duration));
   if (instants.empty()) instants.push_back(Ticks::every(1 / output.gltf.value_or(GltfOutput{}).fps, duration));
   return instants;
@@ -90,11 +91,11 @@ PictureStreams plan_pictures(const Scene& scene) {
     if (ticks.count() < 1)
       throw ExportError(string("cannot make frames: no picture falls between `from` and `until`; ") +
                         "a frame is at a whole multiple of 1/fps");
-    add(plan, frames->size, *frames, 1, ticks, {true, false, false});
+    add(plan, frames->size, *frames, {}, ticks, {true, false, false});
   }
 
   if (const auto& video = output.video) {
-    const Ticks ticks = ticks_of(*video, duration);
+    const Ticks ticks = ticks_of(scene, *video, duration);
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
     if (scene.transparent && film_format(video->file) == FilmFormat::mp4)
@@ -103,7 +104,7 @@ PictureStreams plan_pictures(const Scene& scene) {
 
     // Frames and film share pictures that are the same.
     if (plan.streams.empty() || !shows_film(scene, plan.streams.front(), plan.ticks.front(), ticks))
-      add(plan, layout_of(*video).picture, *video, video->speed, ticks, {false, true, false});
+      add(plan, layout_of(*video).picture, *video, clock_of(scene, *video), ticks, {false, true, false});
     else
       plan.uses.front().film = true;
     if (video->chart) plan.streams.back().charted = true;
@@ -112,7 +113,7 @@ PictureStreams plan_pictures(const Scene& scene) {
   if (output.sheet) {
     const PictureOutput model = sheet_model(scene);
     const Sheet sheet(*output.sheet, model.size);
-    add(plan, sheet.picture_size(), model, model_speed(scene), ticks_of(*output.sheet, duration), {false, false, true});
+    add(plan, sheet.picture_size(), model, model_clock(scene), ticks_of(*output.sheet, duration), {false, false, true});
   }
   return plan;
 }

@@ -14,10 +14,10 @@ struct PictureStream {
   Size size;
   int samples = 4;
   int timeline_stream = 0;
-  double interval = 1.0 / 30;  // s, simulated, from picture to picture of a film
-  double speed = 1;            // simulated seconds a second of a film
+  double interval = 1.0 / 30;  // s, simulated, from picture to picture of a film, apart from a slowdown
   int decimals = 3;            // with which times of pictures are written
   bool charted = false;        // the pictures are those of a film, with a chart beside them
+  FilmClock clock{};
 };
 
 /// The uses of one PictureStream.

@@ -103,7 +103,7 @@ Ticks Ticks::rate(double per_second, double from, double until) {
 }
 
 // a/b + i c/d / fps = (a d fps + i b c) / (b d fps), with a/b = from and c/d = speed.
-Ticks Ticks::film(double per_second, double speed, double from, double until) {
+Ticks Ticks::film(double per_second, double speed, double from, double until, const optional<Slowdown>& slow) {
   if (!(per_second > 0) || !isfinite(per_second) || !(speed > 0) || !isfinite(speed))
     throw std::invalid_argument("Ticks::film: the rate and the speed must be positive and finite");
   Ticks ticks;
@@ -111,7 +111,9 @@ Ticks Ticks::film(double per_second, double speed, double from, double until) {
   ticks.offset_ = start.numerator * pace.denominator * per_second;
   ticks.numerator_ = start.denominator * pace.numerator;
   ticks.denominator_ = start.denominator * pace.denominator * per_second;
-  ticks.last_ = until >= from ? ticks.last_until(until, (until - from) / speed * per_second) : -1;
+  if (slow) ticks.clock_.emplace(speed, from, slow);
+  const double plain = slow ? ticks.clock_->plain(until) : until;
+  ticks.last_ = until >= from ? ticks.last_until(until, (plain - from) / speed * per_second) : -1;
   return ticks;
 }
 
@@ -136,13 +138,19 @@ Ticks Ticks::even(int64_t count, double from, double until) {
 
 double Ticks::at(int64_t i) const {
   // The products are exact for every run of practical length. The division then rounds once.
-  return end_ && i == last_ ? *end_ : (offset_ + double(i) * numerator_) / denominator_;
+  if (end_ && i == last_) return *end_;
+  const double plain = (offset_ + double(i) * numerator_) / denominator_;
+  return clock_ ? clock_->shown(plain) : plain;
+}
+
+double Ticks::number_at(double time) const {
+  return ((clock_ ? clock_->plain(time) : time) * denominator_ - offset_) / numerator_;
 }
 
 void Ticks::cut(double end) {
   if (last_ < first_ || at(last_) <= end) return;
   end_.reset();
-  last_ = numerator_ > 0 ? last_until(end, (end * denominator_ - offset_) / numerator_) : -1;
+  last_ = numerator_ > 0 ? last_until(end, number_at(end)) : -1;
   last_ = max(last_, first_ - 1);
   if (!closes_) return;
   if (last_ < first_ || at(last_) < end) ++last_;
@@ -150,7 +158,7 @@ void Ticks::cut(double end) {
 }
 
 bool Ticks::has_times_of(const Ticks& other) const {
-  return count() == other.count() &&
+  return count() == other.count() && !clock_ && !other.clock_ &&
          (count() == 0 || (at(first_) == other.at(other.first_) && at(last_) == other.at(other.last_)));
 }
 
@@ -158,6 +166,7 @@ int Ticks::decimals() const {
   constexpr int most = 6;
   double interval = this->interval();
   if (count() < 2 || !(interval > 0)) interval = 1;
+  if (clock_) return clamp(1 - int(floor(std::log10(interval * clock_->slowest()))), 0, 17);
   const auto is_whole = [](double x) { return std::abs(x - std::round(x)) < 1e-6; };
   double power = 1;
   for (int i = 0; i <= most; ++i, power *= 10)

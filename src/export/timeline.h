@@ -1,6 +1,7 @@
 #pragma once
 // The times at which outputs are due. Each is computed from its number and never summed up, so that times do not drift.
 
+#include "scene/film_clock.h"
 #include "std.h"
 
 namespace carom {
@@ -15,7 +16,8 @@ class Ticks {
   static Ticks rate(double per_second, double from, double until);
   /// Tick i at from + i * speed / per_second exactly, for every i >= 0 with a time of at most `until` (s).
   /// A `from` or a `speed` that is a short decimal, or one over a whole number, is meant as such: 0.4 is 4/10.
-  static Ticks film(double per_second, double speed, double from, double until);
+  /// With a slowdown, tick i is at the time that the clock shows there.
+  static Ticks film(double per_second, double speed, double from, double until, const optional<Slowdown>& slow = {});
   /// `count` evenly spaced instants from `from` to `until` (s), ends included. A single one is at `until`.
   static Ticks even(int64_t count, double from, double until);
 
@@ -23,7 +25,7 @@ class Ticks {
   int64_t last() const { return last_; }  // first() - 1: none
   int64_t count() const { return last_ - first_ + 1; }
   double at(int64_t i) const;                                    // s
-  double interval() const { return numerator_ / denominator_; }  // s, between two of them
+  double interval() const { return numerator_ / denominator_; }  // s, between two of them, apart from a slowdown
   /// The decimals with which times of ticks are written: all of them, if these are at most 6. Else so many that
   /// rounding is at most a twentieth of the interval.
   int decimals() const;
@@ -33,14 +35,17 @@ class Ticks {
   bool has_times_of(const Ticks& other) const;
 
  private:
+  /// A tick's number, a fraction in most cases, at a time (s).
+  double number_at(double time) const;
   /// The largest number whose time is at most `until`, near a guess of it. -1: none.
   int64_t last_until(double until, double guess) const;
 
   int64_t first_ = 0, last_ = -1;
   /// Tick i is at (offset + i * numerator) / denominator.
   double offset_ = 0, numerator_ = 1, denominator_ = 1;
-  optional<double> end_;  // the last tick's own time
-  bool closes_ = false;   // that is the run's end
+  optional<FilmClock> clock_;  // of a slowdown, which shows these
+  optional<double> end_;       // the last tick's own time
+  bool closes_ = false;        // that is the run's end
 };
 
 /// The instants of all outputs in order. The last instant is the duration, even if no output is due then.

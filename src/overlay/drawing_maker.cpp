@@ -25,12 +25,12 @@ bool has_strings(const Scene& scene) {
 
 }  // namespace
 
-DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size, double speed)
+DrawingMaker::DrawingMaker(const Scene& scene, const History& history, Size size, const FilmClock& clock)
     : scene_(scene),
       world_(scene.world),
       history_(history),
       size_(size),
-      flash_(flash_length * speed),
+      clock_(clock),
       colors_(scene),
       arrows_(arrow_scales(scene)),
       scales_(mark_scales(scene)),
@@ -56,8 +56,9 @@ Marks DrawingMaker::marks(const State& state, const Camera& camera) {
 
 vector<float> DrawingMaker::glow(double time) const {
   vector<float> values(scene_.world.body_count());
+  const double now = clock_.plain(time), length = flash_length * clock_.speed();
   for (Entity i = 0; i < values.size(); ++i)
-    values[i] = float(max(0.0, 1 - (time - history_.last_collision(i)) / flash_));
+    values[i] = float(max(0.0, 1 - (now - clock_.plain(history_.last_collision(i))) / length));
   return values;
 }
 

@@ -7,6 +7,7 @@
 #include "overlay/marks.h"
 #include "physics/world_now.h"
 #include "render/drawing.h"
+#include "scene/film_clock.h"
 #include "scene/output.h"
 #include "std.h"
 
@@ -17,9 +18,9 @@ inline constexpr double flash_length = 0.1;
 
 class DrawingMaker {
  public:
-  /// For pictures of this size, in which a second of the film is `speed` simulated seconds.
+  /// For pictures of this size, of a film with this clock.
   /// `scene` and `history` must outlive this object.
-  DrawingMaker(const Scene& scene, const History& history, Size size, double speed = 1);
+  DrawingMaker(const Scene& scene, const History& history, Size size, const FilmClock& clock = {});
 
   /// `state`: at the time that `history` has reached. `camera`: that of its picture.
   Drawing at(const State& state, const Camera& camera);
@@ -33,7 +34,7 @@ class DrawingMaker {
   WorldNow world_;
   const History& history_;
   Size size_;
-  double flash_;  // s, simulated
+  FilmClock clock_;
   BodyColors colors_;
   vector<ArrowScale> arrows_;
   MarkScales scales_;

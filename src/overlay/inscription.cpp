@@ -15,10 +15,15 @@ double letters_of(Size size) {
   return max(size.height * letters, 2 * TextBlock::least_size);
 }
 
+/// A film that slows down says so, also without a caption of the scene.
+bool has_caption(const Scene& scene) {
+  return !scene.overlay.caption.empty() || (scene.output.video && scene.output.video->slow);
+}
+
 bool has_text(const Scene& scene) {
   const Overlay& overlay = scene.overlay;
   const optional<VideoOutput>& video = scene.output.video;
-  return !overlay.caption.empty() || overlay.labels || overlay.scale_bar || (video && (video->title || video->chart)) ||
+  return has_caption(scene) || overlay.labels || overlay.scale_bar || (video && (video->title || video->chart)) ||
          !legends_of(scene).empty();
 }
 
@@ -29,7 +34,7 @@ void check_font(const Scene& scene) {
 }
 
 Inscription::Inscription(const Scene& scene, Size size)
-    : scene_(scene), size_(size), margin_(int(0.4 * letters_of(size))), captioned_(!scene.overlay.caption.empty()) {
+    : scene_(scene), size_(size), margin_(int(0.4 * letters_of(size))), captioned_(has_caption(scene)) {
   const vector<Legend> legends = legends_of(scene);
   if (has_marks(scene)) painter_ = make_unique<MarkPainter>(size);
   if (!captioned_ && legends.empty()) return;

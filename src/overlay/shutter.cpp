@@ -41,9 +41,9 @@ int exposures_of(const Scene& scene, const State& state, double open, const Eye&
   return int(min(ceil(most), double(most_exposures)));
 }
 
-void Shutter::aim(double picture) {
+void Shutter::aim(double picture, double pace) {
   if (picture == picture_) return;
-  from_ = max(picture_, picture - open_);
+  from_ = max(picture_, picture - pace * open_);
   picture_ = picture;
   opened_ = !(from_ < picture);
   count_ = done_ = 0;

@@ -19,14 +19,15 @@ int exposures_of(const Scene& scene, const State& state, double open, const Eye&
 /// picture's time, which is the last instant.
 class Shutter {
  public:
-  /// `open`: s; 0: a picture is of its own time alone.
+  /// `open`: s, in a film at its own speed; 0: a picture is of its own time alone.
   explicit Shutter(double open = 0) : open_(open) {}
 
   bool is_used() const { return open_ > 0; }
 
-  /// Sets the time (s) of the next picture. The shutter opens no earlier than at the time of the picture before.
-  /// Another call with the same time changes nothing.
-  void aim(double picture);
+  /// Sets the time (s) of the next picture. The shutter opens no earlier than at the time of the picture before. Where
+  /// the film has a part `pace` of its speed, it is open for that part of the time, as a camera that takes more
+  /// pictures a second with the same shutter. Another call with the same time changes nothing.
+  void aim(double picture, double pace = 1);
   double length() const { return picture_ - from_; }  // s, of being open for this picture
   double next() const;                                // s, of the next instant before the picture's; infinity: none
   /// Whether the instant next() is that of opening, at which nothing is drawn.

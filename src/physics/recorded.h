@@ -13,6 +13,7 @@ struct CollisionMark {
   CollisionKind kind = CollisionKind::body_body;
   Entity a = no_entity;  // as in Collision
   Entity b = no_entity;
+  double impulse = 0;  // N s; 0: not recorded
 };
 
 /// The event of a trigger of the World. What it changes lies ahead, so that it may be known at any time before.
@@ -36,7 +37,7 @@ struct Recorded {
 };
 
 inline CollisionMark mark_of(const Collision& collision) {
-  return {collision.time, collision.kind, collision.a, collision.b};
+  return {collision.time, collision.kind, collision.a, collision.b, collision.impulse};
 }
 
 /// The mark of a collision, if it comes before a piece that holds from `from` (s) on. Otherwise nothing. A collision

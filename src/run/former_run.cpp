@@ -108,7 +108,8 @@ double FormerRun::read_end_time() const {
 bool FormerRun::has_flights_with_collisions(const Scene& drawn) const {
   if (!has_flights()) return false;
   const Descriptor opened = open_folder(AT_FDCWD, folder, true);
-  return FlightsReader(opened.get(), folder, drawn).has_collisions();
+  const FlightsReader reader(opened.get(), folder, drawn);
+  return reader.has_collisions() && (reader.has_impulses() || !sounds(drawn));
 }
 
 unique_ptr<Simulator> FormerRun::replay(const Scene& drawn) const {

@@ -21,8 +21,8 @@ struct FormerRun {
   bool has(string_view file) const;
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
-  /// The same, with its collisions (drawings_show_collisions). `drawn`: the scene to draw, of the same motion, perhaps
-  /// of another look. Throws ExportError if the file is damaged.
+  /// The same, with its collisions (drawings_show_collisions), and their impulses if they sound. `drawn`: the scene to
+  /// draw, of the same motion, perhaps of another look. Throws ExportError if the file is damaged.
   bool has_flights_with_collisions(const Scene& drawn) const;
   /// When it ended (s), by its summary.csv. Throws ExportError.
   double read_end_time() const;

@@ -30,12 +30,12 @@ PictureSeries::PictureSeries(const Scene& scene, const PictureStream& stream, co
 }
 
 void PictureSeries::aim(optional<double> picture) {
-  if (shutter_.is_used() && picture) shutter_.aim(*picture);
+  if (shutter_.is_used() && picture) shutter_.aim(*picture, stream_.clock.pace(*picture));
 }
 
 const Image& PictureSeries::draw(const State& state) {
   if (!renderer_) renderer_ = make_unique<Renderer>(scene_, stream_.size, stream_.samples);
-  if (!maker_) maker_.emplace(scene_, history_, stream_.size, stream_.speed);
+  if (!maker_) maker_.emplace(scene_, history_, stream_.size, stream_.clock);
   return renderer_->draw(state, maker_->at(state, camera_.at(state)));
 }
 
@@ -76,7 +76,7 @@ const Image& PictureSeries::with_text(const Image& image, const State& state, co
   if (!inscription_) inscription_.emplace(scene_, stream_.size);
   if (!inscription_->any()) return image;
   CaptionValues values{scene_.title, fmt::format("{:.{}f}", state.time, stream_.decimals), run_,
-                       to_string(tally.collisions())};
+                       to_string(tally.collisions()), stream_.clock.text(state.time)};
   const auto text = [&](const CaptionValues& its) { return caption_text(scene_.overlay.caption, its); };
 
   Marks marks;

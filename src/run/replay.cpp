@@ -45,7 +45,7 @@ void Replay::take_coming() {
   if (coming_.kind == Recorded::Kind::collision) {
     const CollisionMark& mark = coming_.collision;
     tally_.count(mark.kind);
-    collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, 0, 0});
+    collisions_.push_back({mark.time, mark.kind, mark.a, mark.b, Vec3::Zero(), Vec3::Zero(), 0, 0, 0, mark.impulse, 0});
   } else if (coming_.kind == Recorded::Kind::event) {
     tally_.changes.fired[coming_.event.trigger] = coming_.event.fired;
     known_.at(tally_.changes.fired);

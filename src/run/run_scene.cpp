@@ -53,7 +53,6 @@ class Run {
     if (!stages_.have_drawings()) return simulate({});
     if (!settings_.replay) return draws_by_record() ? simulate_then_draw() : simulate_and_draw();
     simulate({});
-    stages_.take_end(tally().end);
     draw_by([this] { return settings_.replay(scene_); }, false);
   }
 
@@ -180,11 +179,10 @@ class Run {
     record_->keep_whole();
     vector<MotionSink*> sinks;
 
-    // Where the end is not awaited, the instants of the pictures are known, and cameras and charts take them on the
-    // way.
+    // Where nothing is awaited, the instants of the pictures are known, and cameras and charts take them on the way.
     optional<Framing> framing;
     optional<Charting> charting;
-    if (!may_stop(scene_) && !checkpoints_.goes_on()) {
+    if (!may_stop(scene_) && !stages_.await_motion() && !checkpoints_.goes_on()) {
       stages_.begin_drawings();
       framing.emplace(drawings_.framing_cameras());
       charting.emplace(drawings_.charts());
@@ -195,7 +193,6 @@ class Run {
     simulate(sinks);
     if (framing) framing->finish();
     if (charting) charting->finish();
-    stages_.take_end(tally().end);
     const auto motion = [this] {
       return replay_from(make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
     };
@@ -205,6 +202,7 @@ class Run {
   /// Draws by recorded motions, on a thread of its own if there is one. surveyed: cameras and charts have been given
   /// the motion.
   void draw_by(const MakeMotion& motion, bool surveyed) {
+    stages_.take_motion(tally().end, motion);
     stages_.begin_drawings();
     const auto draw = [&] { drawings_.draw(motion, surveyed); };
     DrawingThread drawing(draw);
@@ -221,8 +219,8 @@ class Run {
   }
 
   void report_progress(RunProgress::Phase phase) const {
-    watch_.report_progress(
-        {phase, simulated_.simulator->time(), tally().collisions(), stages_.pictures(), checkpoints_.begun_at()});
+    watch_.report_progress({phase, simulated_.simulator->time(), tally().collisions(), stages_.pictures(),
+                            checkpoints_.begun_at(), stages_.planned_pictures()});
   }
 
   const Scene& scene_;  // one of those that share the motion

@@ -22,6 +22,7 @@ struct RunProgress {
   uint64_t collisions = 0;  // so far
   uint64_t pictures = 0;    // drawn, of all shows
   double begun_at = 0;      // s, simulated by the interrupted run that this one continues
+  uint64_t planned = 0;     // pictures, drawn or not, as far as is known
 };
 
 struct RunWatch {

@@ -78,8 +78,7 @@ void DrawingSink::end_at(double time) {
 }
 
 void DrawingSink::record(const Simulator& simulator) {
-  part().record(simulator.collisions());
-  part().record_paths(simulator.paths());
+  exports_.record_drawings(simulator.collisions(), simulator.paths());
   history_.record(simulator.collisions());
   history_.record_paths(simulator.paths());
 }

@@ -6,6 +6,7 @@
 
 #include "files/manifest.h"
 #include "physics/archive.h"
+#include "run/slow_spot.h"
 #include "run/warnings.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -42,7 +43,8 @@ string request_of(const Scene& scene, const vector<Measure>& measures) {
 }  // namespace
 
 bool draws_after_motion(const Scene& scene) {
-  return may_stop(scene) || frames_motion(scene) || (scene.output.video && scene.output.video->chart);
+  return may_stop(scene) || frames_motion(scene) || slows_down(scene) ||
+         (scene.output.video && scene.output.video->chart);
 }
 
 Stages::Stages(span<const Show> shows, const RunSettings& settings, function<void()> stop_check)
@@ -62,11 +64,11 @@ Stage* Stages::lasting() {
   return may_last() ? stages_.front().get() : nullptr;
 }
 
-/// Opens the folder of a show. The end of its run may become known later.
+/// Opens the folder of a show. What its pictures wait for becomes known later.
 void Stages::open(size_t i) {
   Show& show = shows_[i];
   check_flights(*show.scene);
-  if (needs_end(*show.scene)) show.scene = &ending_.emplace_back(*show.scene);
+  if (needs_end(*show.scene) || slows_down(*show.scene)) show.scene = &awaiting_.emplace_back(*show.scene);
   const vector<Measure> measures = measures_of(*show.scene);
   function<string()> request;
   if (may_last()) request = [&scene = *show.scene, measures] { return request_of(scene, measures); };
@@ -137,10 +139,11 @@ bool Stages::draw_after_motion() const {
   return any_of(shows_, [](const Show& show) { return draws_after_motion(*show.scene); });
 }
 
-void Stages::take_end(const optional<RunEnd>& end) {
-  if (!end) return;
-  for (Scene& scene : ending_)
-    if (end->time < scene.simulate.duration) scene.ends_at = end->time;
+void Stages::take_motion(const optional<RunEnd>& end, const function<unique_ptr<Simulator>()>& motion) {
+  for (Scene& scene : awaiting_) {
+    if (end && end->time < scene.simulate.duration) scene.known.ends_at = end->time;
+    if (slows_down(scene) && have_drawings()) scene.known.slows_at = find_slowdown(scene, motion, stop_check_);
+  }
 }
 
 void Stages::begin_drawings() {
@@ -153,6 +156,13 @@ uint64_t Stages::pictures() const {
   uint64_t pictures = 0;
   for (const auto& stage : stages_)
     if (stage) pictures += stage->exports.frames();
+  return pictures;
+}
+
+uint64_t Stages::planned_pictures() const {
+  uint64_t pictures = 0;
+  for (const auto& stage : stages_)
+    if (stage) pictures += stage->exports.planned_frames();
   return pictures;
 }
 

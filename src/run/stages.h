@@ -50,12 +50,17 @@ class Stages {
   bool have_drawings();
   /// Whether any of them draws when the motion is over.
   bool draw_after_motion() const;
-  /// What is known of the run's end when the motion is over.
-  void take_end(const optional<RunEnd>& end);
+  /// Whether any of them cannot plan its pictures before the motion is over.
+  bool await_motion() const { return !awaiting_.empty(); }
+  /// What such shows need to know when the motion is over: its end, and where films slow down. `motion` makes
+  /// simulators of it.
+  void take_motion(const optional<RunEnd>& end, const function<unique_ptr<Simulator>()>& motion);
   void begin_drawings();
 
   /// The pictures of all so far.
   uint64_t pictures() const;
+  /// All that they will draw, as far as is known.
+  uint64_t planned_pictures() const;
   /// Finishes the folders. Results are in the order of the shows.
   vector<RunResult> finish(const Simulated& done);
 
@@ -70,7 +75,7 @@ class Stages {
   vector<Show> shows_;
   const RunSettings& settings_;
   const function<void()> stop_check_;
-  std::deque<Scene> ending_;  // those of shows that wait for the run's end
+  std::deque<Scene> awaiting_;  // those of shows that wait for the motion
   // By show. It is null, or not used any more, where the show has failed.
   vector<unique_ptr<Stage>> stages_;
   std::mutex failing_;

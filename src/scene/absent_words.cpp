@@ -43,7 +43,12 @@ constexpr AbsentWord all_words[] = {
      "A ball or body has a `velocity`, a vector. `speed` belongs to groups, the spread of random velocities, and to "
      "videos.",
      "velocity|groups.speed|video.speed"},
-    {"slow motion|slowmo|slow|slowdown|time lapse|playback speed|time scale|timescale|replay speed|speed up",
+    {"slow motion|slowmo|slowdown|bullet time|speed ramp|ramping",
+     "`video.slow` slows a film down around a collision, and `video.speed` all of it: 0.125 is eightfold slow motion.",
+     "video.slow|video.speed"},
+    {"audio|noise of impacts|click|clicks|tone|volume of sound|loudness|soundtrack|music|voice",
+     "`video.sound` is the sound of a film's collisions. There is no other sound.", "video.sound"},
+    {"time lapse|playback speed|time scale|timescale|replay speed|speed up",
      "`video.speed` is the seconds of motion a second of film: 0.125 is eightfold slow motion, 10 a time lapse. Every "
      "instant is exact. `fps` alone does not change how fast a film plays.",
      "video.speed|video.fps"},

@@ -66,9 +66,10 @@ class CaptionDecoder {
     // The keys of the whole scene are too many to help.
     const size_t list = remedy.starts_with("expected ") ? 0 : remedy.find("\nexpected ");
     if (part.text.find('.') == string::npos && list != string::npos) remedy.erase(list);
-    diagnostics_.add(place_in(node_, part.at, part.text.size() + 2), found.problem,
-                     remedy + (remedy.empty() ? "" : "\n") +
-                         "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}");
+    diagnostics_.add(
+        place_in(node_, part.at, part.text.size() + 2), found.problem,
+        remedy + (remedy.empty() ? "" : "\n") +
+            "expected {title}, {time}, {run}, {collisions}, {slow} or a path such as {restitution.default}");
     return "";
   }
 
@@ -125,16 +126,22 @@ bool has_name(string_view caption, string_view name) {
 
 string caption_text(string_view caption, const CaptionValues& values) {
   string text;
+  bool has_slow = values.slow.empty();
   for (const CaptionPart& part : parts_of_caption(caption)) {
-    if (part.kind != CaptionPart::Kind::name)
+    if (part.kind != CaptionPart::Kind::name) {
       text += part.text;
-    else
-      text += part.text == "title"  ? values.title
-              : part.text == "time" ? values.time
-              : part.text == "run"  ? values.run
-                                    : values.collisions;
+      continue;
+    }
+
+    text += part.text == "title"  ? values.title
+            : part.text == "time" ? values.time
+            : part.text == "run"  ? values.run
+            : part.text == "slow" ? values.slow
+                                  : values.collisions;
+    has_slow = has_slow || part.text == "slow";
   }
-  return text;
+
+  return has_slow ? text : text + (text.empty() ? "" : "   ") + values.slow;
 }
 
 string decode_caption(const Node& root, Diagnostics& diagnostics) {

@@ -9,7 +9,7 @@
 namespace carom {
 
 /// What a run fills in, separated by |. Any other name is a path into the scene.
-inline constexpr string_view caption_names = "title|time|run|collisions";
+inline constexpr string_view caption_names = "title|time|run|collisions|slow";
 
 /// The template of `caption: true`.
 inline constexpr string_view usual_caption = "{title}   {time} s";
@@ -29,7 +29,9 @@ bool has_name(string_view caption, string_view name);
 /// The caption of one picture.
 struct CaptionValues {
   string title, time, run, collisions;
+  string slow{};  // "1/8 speed"; empty: the film is not slow
 };
+/// A caption without {slow} ends with it.
 string caption_text(string_view caption, const CaptionValues& values);
 
 /// The template of the scene's key `caption`, with the values of paths in place of their names. Empty: none is wanted.

@@ -133,10 +133,32 @@ class Requests {
                        "expected an even width and height: its colours (yuv420p) are stored for 2 x 2 pixels");
     }
 
+    if (video.sound && format && *format != FilmFormat::mp4)
+      diagnostics_.add(part.place("sound"), fmt::format("{} has no sound", film_name(*format)),
+                       "expected a `file` ending in .mp4, or `sound: false`");
+
+    if (video.slow && video.slow->around == "none") video.slow.reset();
+    if (video.slow) find_slow(part.part("slow"), *video.slow);
     if (format == FilmFormat::gif) check_gif(part, video);
     if (format) check_limits(part, video, *format);
     check_window(part, video.from, video.until);
     decode_film_parts(part, inventory_, scene_.title, video, diagnostics_);
+  }
+
+  void find_slow(const View& part, SlowSettings& slow) {
+    const Node* around = part.given("around");
+    if (around == nullptr || slow.around == "auto") return;
+    const auto range = find_range(*around, inventory_, Sought::bodies, diagnostics_);
+    if (!range || !inventory_.fits) return;
+
+    slow.first = range->first;
+    slow.count = range->count;
+    if (range->first < inventory_.body_count && range->count > 0) return;
+    diagnostics_.add(
+        around->place,
+        fmt::format("{} {}: a film slows down around collisions of bodies", in_backticks(around->text),
+                    range->count == 0 ? "has no balls" : fmt::format("is {}", inventory_.word_for(*range))),
+        "expected auto, none, a ball, body, group or member (gas.3)");
   }
 
   void check_sheet(const View& output, SheetOutput& sheet) {
@@ -213,7 +235,8 @@ class Requests {
 
   double count(const VideoOutput& video) const {
     const double until = video.until.value_or(scene_.simulate.duration);
-    return max(0.0, floor((until - video.from) * video.fps / video.speed) + 1) + double(title_pictures(video));
+    const double length = (until - video.from) / video.speed + (video.slow ? most_delay() : 0);
+    return max(0.0, floor(length * video.fps) + 1) + double(title_pictures(video));
   }
 
   void check_budget() {

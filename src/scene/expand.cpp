@@ -491,7 +491,7 @@ void write_out(Node& part, const Kind& kind) {
     if (value == nullptr) continue;
     if (field.type == Type::named && value->is_map())
       for (Node& entry : value->items) write_out(entry, *field.held);
-    if (field.type != Type::part) continue;
+    if (field.type != Type::part && field.type != Type::part_or_flag) continue;
     if (value->is_map()) write_out(*value, *field.held);
 
     // A list stands for a list, and any other plain value for one.

@@ -449,6 +449,7 @@ class FormatTable {
       map.beneath = kind.beneath;
       add(scenes_, map);
     }
+    for (const Kind& kind : kinds_below_outputs()) add(scenes_, kind);
     for (const Kind& kind : sweep_rows()) add(sweeps_, kind);
 
     for (vector<Field>& fields : fields_)

@@ -54,6 +54,11 @@ struct ChartSubject {
   friend bool operator==(const ChartSubject&, const ChartSubject&) = default;
 };
 
+/// Slow motion around the first collision in the time that a film shows.
+struct SlowSettings {
+  string around = "auto";       // as in the file: the name of bodies, auto or none
+  Entity first = 0, count = 0;  // these bodies; count 0: any
+};
 struct VideoOutput : PictureOutput {
   string file = "animation.mp4";  // a plain file name; its ending chooses the format (film_format.h)
   int crf = 18;
@@ -62,6 +67,8 @@ struct VideoOutput : PictureOutput {
   bool title = false;            // a card with the scene's title comes first (film_layout.h)
   optional<string> beside{};     // as in the file; none: no chart
   optional<ChartSubject> chart;  // what `beside` names
+  optional<SlowSettings> slow{};
+  bool sound = false;  // of collisions
 };
 
 struct SheetOutput {

@@ -63,6 +63,11 @@ constexpr Field frames_fields[] = {
     with(until, fills<FramesOutput, &FramesOutput::until>),
 };
 
+constexpr Field slow_fields[] = {
+    row<SlowSettings, &SlowSettings::around>("around", "auto: the first collision in the time that the film shows. A ball, body, group or member (gas.3): the first one of these. none: no slow motion.", "red", {.type = Type::name, .title = "Whose collision", .pattern = reference}),
+};
+constexpr Kind kinds_below[] = {{"slow", "", "Slow motion around a collision.", slow_fields}};
+
 constexpr Field video_fields[] = {
     row<VideoOutput, &VideoOutput::file>("file", "Name of the file, ending in .mp4 (H.264), .gif or .webp.", "break.mp4", {.pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)"}),
     with(film_fps, fills<VideoOutput, &VideoOutput::fps>),
@@ -74,6 +79,8 @@ constexpr Field video_fields[] = {
     row<VideoOutput, &VideoOutput::speed>("speed", "Seconds of motion a second of film; 0.125 is eightfold slow motion.", "0.125", {.range = {1e-6, 1e6}, .title = "Seconds of motion a second of film"}),
     row<VideoOutput, &VideoOutput::title>("title", "Whether the film begins with the scene's title, for 2 s.", "true", {.title = "Title card"}),
     row_if_given<VideoOutput, &VideoOutput::beside>("beside", "A chart that grows in the right third of the film: energy, momentum, or a quantity of a body: x(red), y, z, vx, vy, vz, speed or kinetic.", "energy", {.title = "Chart beside the pictures", .pattern = R"(^(energy|momentum|(x|y|z|vx|vy|vz|speed|kinetic)\([A-Za-z_][A-Za-z0-9_-]*(\.[0-9]+)*\))$)"}),
+    row_if_given<VideoOutput, &VideoOutput::slow>("slow", "Slow motion around a collision, eased in and out, with its factor in the caption. A word alone is `around`.", "auto", {.of = "slow", .plain = "around", .held = kinds_below}),
+    row<VideoOutput, &VideoOutput::sound>("sound", "A click at each collision: louder with its impulse, higher with smaller bodies. Only of an .mp4.", "true", {.title = "Sound of collisions"}),
 };
 
 constexpr Field sheet_fields[] = {
@@ -302,6 +309,10 @@ bool OutputKind::has_file(string_view file) const {
 
 span<const OutputKind> output_kinds() {
   return all_kinds;
+}
+
+span<const Kind> kinds_below_outputs() {
+  return kinds_below;
 }
 
 Output restricted(const Output& requested, const vector<string>& only) {

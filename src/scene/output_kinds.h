@@ -76,6 +76,9 @@ struct OutputKind {
 /// Every output, in the order of the scene's keys, of --only and of the manifest.
 span<const OutputKind> output_kinds();
 
+/// The kinds of maps that stand in the maps of outputs.
+span<const Kind> kinds_below_outputs();
+
 /// The outputs named in `only`, with the scene's settings. An output that the scene lacks gets default settings.
 /// Frames and video take each other's rate, size and samples.
 /// The scene's resolved text stays unchanged, so that runs with different outputs are recognised as runs of one scene.

@@ -5,6 +5,7 @@
 #include "physics/state.h"
 #include "physics/world.h"
 #include "scene/colors.h"
+#include "scene/film_clock.h"
 #include "scene/former_state.h"
 #include "scene/look.h"
 #include "scene/mesh_turn.h"
@@ -164,6 +165,12 @@ struct MadeFrom {
   vector<string> notes{};
 };
 
+/// What the motion tells of a scene. The loader does not know it.
+struct KnownMotion {
+  optional<double> ends_at{};     // s: where the run ends, if that is before its duration
+  optional<Slowdown> slows_at{};  // the collision around which the film slows down
+};
+
 struct Scene {
   string file;  // as given on the command line
   string title;
@@ -183,8 +190,7 @@ struct Scene {
   Measures measures;
   /// The outputs of the file, whichever of them --only leaves in `output`.
   Output requested;
-  /// In s: where the run is known to end, if that is before its duration. The loader does not know.
-  optional<double> ends_at{};
+  KnownMotion known{};
   vector<MeshFile> meshes;  // each file once
   MadeFrom made_from;
   /// YAML text: this scene with defaults and --set applied. Running it gives the same bytes.
@@ -193,7 +199,7 @@ struct Scene {
 
 /// The end of the run as far as it is known (s).
 inline double end_of(const Scene& scene) {
-  return scene.ends_at.value_or(scene.simulate.duration);
+  return scene.known.ends_at.value_or(scene.simulate.duration);
 }
 
 /// Whether the run may end before its duration.
@@ -202,6 +208,19 @@ bool may_stop(const Scene& scene);
 /// Whether the camera frames the whole motion.
 inline bool frames_motion(const Scene& scene) {
   return !scene.camera || scene.camera->fit;
+}
+
+/// Whether a film of the scene slows down around a collision, whichever outputs --only leaves.
+inline bool slows_down(const Scene& scene) {
+  return (scene.output.video && scene.output.video->slow) || (scene.requested.video && scene.requested.video->slow);
+}
+/// The same for a film that has the sound of collisions.
+inline bool sounds(const Scene& scene) {
+  return (scene.output.video && scene.output.video->sound) || (scene.requested.video && scene.requested.video->sound);
+}
+/// The clock of a film of the scene.
+inline FilmClock clock_of(const Scene& scene, const VideoOutput& video) {
+  return {video.speed, video.from, video.slow ? scene.known.slows_at : nullopt};
 }
 
 /// Whether bodies are coloured by the number of their collisions.

@@ -71,6 +71,13 @@ FilmTile tile_of(const ListedRun& run) {
   settings.title = title.get<bool>();
   tile.before = uint64_t(title_pictures(settings));
 
+  // Each slows down around a collision of its own.
+  if (const Json slow = video.value("slow", Json()); slow.is_object())
+    throw ExportError(
+        fmt::format("{} has a film that slows down around a collision, out of step with the others: draw "
+                    "it at an even speed ({})",
+                    run.folder, redrawing(run.folder, "slow=none")));
+
   if (film_format(tile.file) == FilmFormat::webp)
     throw ExportError(fmt::format("{} has a film that ffmpeg cannot read, {}: draw it as .mp4 ({})", run.folder,
                                   tile.file, redrawing(run.folder, "file=animation.mp4")));

@@ -257,6 +257,23 @@ TEST(CompareCommand, FilmShowsRunsSideBySideAndInStep) {
   EXPECT_FALSE(here.has("output/comparison/comparison.mp4"));
 }
 
+TEST(CompareCommand, FilmsThatSlowDownAreOutOfStep) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("camera: {eye: [0, 3, -5], target: [0, 0, 0]}\n"
+                                     "output: {video: {fps: 10, size: [64, 48], slow: auto, sound: true}}\n"));
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/first"}).code, 0);
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-q", "-o", "runs/second", "--set", "simulate.duration=1.5"}).code, 0);
+  const Finished refused = here.carom({"compare", "runs/first", "runs/second", "--video"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.err,
+            "carom: runs/first has a film that slows down around a collision, out of step with the others: draw it at "
+            "an even speed (carom render runs/first --set output.video.slow=none)\n");
+
+  for (const string run : {"runs/first", "runs/second"})
+    ASSERT_EQ(here.carom({"render", run, "-q", "--set", "output.video.slow=none"}).code, 0);
+  EXPECT_EQ(here.carom({"compare", "runs/first", "runs/second", "--video"}).code, 0);
+}
+
 // A caption is at the top left of a film, where a label on the film would be too.
 TEST(CompareCommand, LabelsOfTheFilmStandAboveTheFilms) {
   const Workplace here;

@@ -57,6 +57,19 @@ TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
   }
 }
 
+TEST(Film, ThatNeedsCollisionsIsSimulatedAgain) {
+  const Workplace here;
+  here.write("balls.yaml", two_balls("output: {video: {fps: 10, size: [64, 48]}}\n"));
+  ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run"}).code, 0);
+  for (const string set : {"output.video.slow=auto", "output.video.sound=true"}) {
+    const Finished rendered = here.carom({"render", "run", "--set", set, "-o", "b", "--force", "--progress", "none"});
+    EXPECT_EQ(rendered.code, 0) << rendered.err;
+    EXPECT_EQ(rendered.err, "run: the film needs collisions, which its flights do not hold: simulating again\n") << set;
+    ASSERT_EQ(here.carom({"run", "balls.yaml", "--set", set, "-o", "c", "--force"}).code, 0);
+    EXPECT_EQ(here.read("b/animation.mp4"), here.read("c/animation.mp4")) << set;
+  }
+}
+
 TEST(Overlay, ThatShowsCollisionsIsInTheRecordOfItsRun) {
   const Workplace here;
   for (const char* more : {"caption: \"{collisions} so far\"\n", "flash: true\n"}) {

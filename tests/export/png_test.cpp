@@ -343,7 +343,7 @@ TEST(PictureStreams, OfFramesAndASlowFilmAreOneUnlessTheirFlashesDiffer) {
   ASSERT_EQ(plan.streams.size(), 2U);
   EXPECT_EQ(plan.streams[0].interval, 1.0 / 240);
   EXPECT_EQ(plan.streams[1].interval, 0.125 / 30);
-  EXPECT_EQ(plan.streams[1].speed, 0.125);
+  EXPECT_EQ(plan.streams[1].clock.speed(), 0.125);
 }
 
 }  // namespace

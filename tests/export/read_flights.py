@@ -10,6 +10,7 @@ import zlib
 from types import SimpleNamespace as Piece
 
 SIGN = 1 << 63
+IMPULSES = 1 << 62  # collisions have theirs
 NAMES = "shape body time place velocity acceleration kick curve other".split()
 ZERO = [0.0] * 3
 NOTHING = Piece(known=False, start=(0.0, 0.0), x=ZERO, v=ZERO, a=ZERO, traits=0, half=0.0, kick=None, curve=None,
@@ -217,7 +218,7 @@ def read_until(data, time):
     """The present piece of each body."""
     magic, version, order, bodies, duration = struct.unpack_from("<8sIIQd", data)
     assert (magic, version, order) == (b"caromfly", 8, 0x01020304)
-    present, sizes, at = [NOTHING] * (bodies % SIGN), {}, 32
+    present, sizes, at = [NOTHING] * (bodies % IMPULSES), {}, 32
     (left,) = struct.unpack_from("<Q", data, len(data) - 200)
     while left:
         kind, entries, size, checksum, begin = struct.unpack_from("<IIIId", data, at)
@@ -226,12 +227,14 @@ def read_until(data, time):
             continue
         left -= entries
         entry = Piece(body=-1, start=(begin, 0.0), until=(begin, 0.0), since=begin, e=0.0, struck=None, mark=0.0,
-                      sizes=(0.0, 0.0))
+                      impulse=0.0, sizes=(0.0, 0.0))
         for _ in range(entries):
             body = c.number("body")
             if body == 0:
                 c.byte("shape"), c.number("other"), c.number("other")
                 entry.mark = c.value("time", entry.mark)
+                if bodies & IMPULSES:
+                    entry.impulse = c.value("velocity", entry.impulse)
                 continue
             body = entry.body + 1 + (body - 1 >> 1 ^ -(body - 1 & 1))
             p = read_piece(c, body, entry, present, sizes)

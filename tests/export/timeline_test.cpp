@@ -176,6 +176,30 @@ TEST(Ticks, AreWrittenWithAllTheirDecimalsOrToATwentiethOfTheirInterval) {
   }
 }
 
+TEST(Ticks, OfAFilmThatSlowsDownFollowItsClock) {
+  const Slowdown slow{1.5, 3};
+  const FilmClock clock(0.5, 0.25, slow);
+  const Ticks ticks = Ticks::film(30, 0.5, 0.25, 4, slow);
+  // The film's length in closed form, with n = 2^k: 0.5 s (k + 2 - 2/n - (1 - 1/n) / ln 2) more.
+  const double length = 3.75 / 0.5 + 0.5 * (5 - 0.25 - 0.875 / std::log(2.0));
+  EXPECT_EQ(ticks.count(), int64_t(std::floor(30 * length)) + 1);
+  EXPECT_EQ(ticks.at(0), 0.25);
+
+  for (int64_t i = 0; i <= ticks.last(); ++i) {
+    EXPECT_EQ(ticks.at(i), clock.shown((15 + double(i)) / 60));
+    EXPECT_LE(ticks.at(i), 4);
+    EXPECT_GT(ticks.at(i + 1), ticks.at(i));
+  }
+  EXPECT_GT(clock.shown(0.25 + double(ticks.last() + 1) / 60), 4);
+  EXPECT_EQ(ticks.decimals(), 4);  // 1/480 s at the slowest
+
+  Ticks cut = ticks;
+  cut.cut(2);
+  EXPECT_LE(cut.at(cut.last()), 2);
+  EXPECT_GT(ticks.at(cut.last() + 1), 2);
+  EXPECT_FALSE(ticks.has_times_of(ticks));  // those of frames are even
+}
+
 TEST(Timeline, KnowsTheNextTickOfAStream) {
   Timeline timeline(0.5);
   const int a = timeline.add(Ticks::rate(10, 0.1, 0.3));

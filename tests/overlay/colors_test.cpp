@@ -130,7 +130,7 @@ TEST(Flash, LastsATenthOfASecondOfTheFilm) {
     History history(scene, picture_needs(scene));
     const vector<Collision> one = {hit(0.5, 0, 2)};
     history.record(one);
-    DrawingMaker maker(scene, history, {64, 36}, speed);
+    DrawingMaker maker(scene, history, {64, 36}, FilmClock(speed, 0));
 
     State state = scene.initial;
     const auto glow_at = [&](double time, size_t body) {

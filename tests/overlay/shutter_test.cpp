@@ -76,6 +76,12 @@ TEST(Shutter, DoesNotOpenBeforeTheStartOrThePictureBefore) {
   EXPECT_EQ(shutter.next(), 0.1);
 }
 
+TEST(Shutter, OfASlowerFilmOpensForLess) {
+  Shutter shutter(0.25);
+  shutter.aim(1, 0.125);
+  EXPECT_EQ(shutter.next(), 1 - 0.03125);
+}
+
 TEST(Shutter, ThatIsNotUsedHasNoInstants) {
   EXPECT_FALSE(Shutter(0).is_used());
   EXPECT_EQ(Shutter(0).next(), infinity);

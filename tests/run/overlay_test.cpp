@@ -130,7 +130,7 @@ struct Taken {
 Taken pictures_of(const Scene& scene, const vector<double>& times, double interval) {
   History history(scene, picture_needs(scene));
   const auto simulator = make_simulator(scene);
-  PictureSeries series(scene, {{320, 180}, 4, 0, interval, 1, 2}, history, "here");
+  PictureSeries series(scene, {{320, 180}, 4, 0, interval, 2}, history, "here");
   Taken taken;
 
   for (const double time : times) {

@@ -51,6 +51,13 @@ TEST(Caption, HasTwoBracesForOne) {
             "{time} = 0.5, {1}");
 }
 
+TEST(Caption, EndsWithHowSlowTheFilmIs) {
+  EXPECT_EQ(caption_text("{title}   {time} s", {"A ball", "0.5", "", "", "1/8 speed"}), "A ball   0.5 s   1/8 speed");
+  EXPECT_EQ(caption_text("{slow}: {title}", {"A ball", "0.5", "", "", "1/8 speed"}), "1/8 speed: A ball");
+  EXPECT_EQ(caption_text("", {"A ball", "0.5", "", "", "1/8 speed"}), "1/8 speed");
+  EXPECT_EQ(caption_text("{title}", {"A ball", "0.5", "", "", ""}), "A ball");
+}
+
 TEST(Caption, OfTheResolvedSceneIsTheSame) {
   LoadOptions options;
   options.set = {"defaults.ball.mass=7", "caption=m = {defaults.ball.mass}, {time}"};
@@ -65,7 +72,7 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
   EXPECT_EQ(in_parts(error_of("t = {tme} s")),
             (Parts{{"9:15 {tme}", "unknown key `tme` in the scene",
                     "did you mean `time`?\n"
-                    "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}"}}));
+                    "expected {title}, {time}, {run}, {collisions}, {slow} or a path such as {restitution.default}"}}));
   EXPECT_NE(error_of("{balls.rde.mass}").find("there is no ball `rde`\n"), string::npos);
   EXPECT_NE(error_of("{balls.rde.mass}").find("did you mean `red`?"), string::npos);
   EXPECT_NE(error_of("{balls.red.mas}").find("unknown key `mas` in `ball`"), string::npos);
@@ -77,12 +84,12 @@ TEST(Caption, WithAnUnknownNameIsAnErrorAtItsPlace) {
 
   EXPECT_EQ(in_parts(error_of("{foo}")),
             (Parts{{"9:11 {foo}", "unknown key `foo` in the scene",
-                    "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}"}}));
+                    "expected {title}, {time}, {run}, {collisions}, {slow} or a path such as {restitution.default}"}}));
   EXPECT_NE(error_of("{fps}").find("     = `fps` is a key of `frames`, `video` or `gltf`\n     = expected {title}"),
             string::npos);
   EXPECT_EQ(in_parts(error_of("{}")),
             (Parts{{"9:11 {}", "there is no name between the braces",
-                    "expected {title}, {time}, {run}, {collisions} or a path such as {restitution.default}"}}));
+                    "expected {title}, {time}, {run}, {collisions}, {slow} or a path such as {restitution.default}"}}));
   EXPECT_NE(error_of("{time").find("scene.yaml:9:11: error: a brace is not closed\n"), string::npos);
 }
 

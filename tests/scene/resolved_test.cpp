@@ -196,6 +196,7 @@ const string brief_resolved =
     "output:\n"
     "  collisions: false\n"
     "  video: {file: \"animation.mp4\", fps: 30, size: [1280, 720], crf: 18, samples: 4, from: 0, speed: 1, title: "
+    "false, sound: "
     "false}\n";
 
 TEST(ResolvedScene, HasEveryDefaultWrittenOut) {

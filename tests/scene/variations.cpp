@@ -289,6 +289,8 @@ simulate: {duration: 1}
     "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square}}}",
     "{scene: 1, title: T, balls: {red: {mass: 1, radius: 1, position: [0, 0, 0]}}, simulate: {duration: 1}, output: "
     "{video: {title: true, beside: x(red), size: 720p}}}",
+    "{scene: 1, simulate: {duration: 1}, output: {video: {file: b.mp4, fps: 16, size: square, slow: auto, sound: "
+    "true}}}",
     "{scene: 1, simulate: {duration: 1}, camera: {fit: motion, fov: 30}}",
     R"(
 scene: 1
@@ -296,6 +298,7 @@ balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 planes: {text: {point: [0, 0, 0], normal: [0, 1, 0]}}
 simulate: {duration: 1}
 camera: {follow: red, eye: [0, 3, -5], target: [0, 1, 0], near: 0.5}
+output: {video: {slow: {around: red}}}
 )",
     R"(
 scene: 1
