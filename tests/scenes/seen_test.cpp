@@ -1,0 +1,119 @@
+// Of every scene without its camera: all that collides is in the picture as it does, large enough, and not hidden.
+#include <gtest/gtest.h>
+
+#include "export/picture_streams.h"
+#include "physics/world.h"
+#include "physics/world_now.h"
+#include "render/eye.h"
+#include "render/moving_camera.h"
+#include "render/sight.h"
+#include "run/engine.h"
+#include "run/survey.h"
+#include "scene/scene.h"
+#include "scenes/play.h"
+#include "slow_with_sanitizers.h"
+#include "std.h"
+
+namespace carom::testing {
+namespace {
+
+constexpr Size size{1280, 720};
+
+/// The bodies of collisions, as the camera sees them.
+struct Seen {
+  size_t all = 0, outside = 0, hidden = 0;
+  double least = 1;  // of the heights of bodies, in that of the picture
+};
+
+class Watching {
+ public:
+  Watching(const Scene& scene, const MovingCamera& camera) : scene_(scene), camera_(camera), sight_(scene) {}
+
+  void see(const State& state, const Collision& collision) {
+    add(state, collision, collision.a, -1);
+    const Entity second = scene_.world.second_body(collision.b);
+    if (second != no_entity) add(state, collision, second, collision.kind == CollisionKind::taut ? 0 : 1);
+  }
+  const Seen& seen() const { return seen_; }
+
+ private:
+  void add(const State& at, const Collision& collision, Entity body, double side) {
+    State state = at;
+    state.time = collision.time;
+    const Camera camera = camera_.at(state);
+    const Eye eye(camera, size);
+    const Volume volume = scene_.world.volume_of(body);
+    if (collision.kind == CollisionKind::taut) return;  // its place is not that of the body
+    const Vec3 center = collision.position + side * volume.support(collision.normal) * collision.normal;
+    const Vec3 place = eye.point(center);
+
+    ++seen_.all;
+    const bool inside = std::abs(place.x()) <= eye.tan_x * place.z() && std::abs(place.y()) <= eye.tan_y * place.z();
+    seen_.outside += !inside;
+    seen_.least = min(seen_.least, volume.half.maxCoeff() / (eye.tan_y * place.z()));
+    vector<Entity> hiders =
+        sight_.hiders(scene_.world, collision.time, camera.eye, eye.view, center, volume.half.maxCoeff());
+    std::erase_if(hiders, [&](Entity e) {
+      return ranges::binary_search(camera_.faded(), uint32_t(e - scene_.world.body_count()));
+    });
+    seen_.hidden += !hiders.empty();
+  }
+
+  const Scene& scene_;
+  const MovingCamera& camera_;
+  const Sight sight_;
+  Seen seen_;
+};
+
+Seen seen_of(const Scene& scene) {
+  MovingCamera camera(scene, size);
+  MovingCamera* const cameras[] = {&camera};
+  survey(cameras, *make_simulator(scene), [] {});
+
+  double from = infinity, until = 0;
+  for (const Ticks& ticks : shown_instants(scene))
+    from = min(from, ticks.at(ticks.first())), until = max(until, ticks.at(ticks.last()));
+  Watching watching(scene, camera);
+  const auto simulator = make_simulator(scene);
+  while (simulator->time() < until) {
+    simulator->advance_to(until);
+    for (const Collision& collision : simulator->collisions())
+      if (collision.kind != CollisionKind::rest && collision.time >= from && collision.time <= until)
+        watching.see(simulator->state(), collision);
+  }
+  if (getenv("SEEN")) {
+    const Seen& s = watching.seen();
+    std::cout << "SEEN " << s.all << " out " << s.outside << " hidden " << s.hidden << " least " << s.least << " moves "
+              << !camera.stands_still() << " faded " << camera.faded().size() << " elev "
+              << std::asin(-view_of(camera.at(scene.initial), size).forward.y()) * 180 / M_PI << "\n";
+  }
+  return watching.seen();
+}
+
+class EverySceneWithoutCamera : public ::testing::TestWithParam<string> {};
+
+TEST_P(EverySceneWithoutCamera, ShowsWhatCollides) {
+  Scene scene = load(GetParam());
+  if (scene.simulate.engine == Engine::book) return;
+  scene.camera.reset();
+  const Seen seen = seen_of(scene);
+  EXPECT_EQ(seen.outside, 0u);
+  EXPECT_EQ(seen.hidden, 0u);
+  EXPECT_GE(seen.least, seen.all > 0 ? 0.02 : 0);
+}
+
+TEST_P(EverySceneWithoutCamera, OwnCamera) {
+  Scene scene = load(GetParam());
+  if (scene.simulate.engine == Engine::book || !scene.camera || !getenv("SEEN")) return;
+  seen_of(scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneWithoutCamera, ::testing::ValuesIn(scene_names()),
+                         [](const auto& parameter) {
+                           string name = parameter.param;
+                           std::replace(name.begin(), name.end(), '/', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace carom::testing
