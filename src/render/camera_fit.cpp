@@ -16,14 +16,14 @@ namespace carom {
 namespace {
 
 /// The part of the picture's height that a body has at least as it collides: in a view that need not come nearer, that
-/// need not move, and in which it is seen at all.
-constexpr double large = 0.08, good_size = 0.045, least_size = 0.02;
+/// need not move, that moves to keep more bodies, and in which it is seen at all.
+constexpr double large = 0.08, good_size = 0.045, fair_size = 0.03, least_size = 0.02;
 /// Where bodies are smaller, the shares of the impulses that may be all that is framed.
 constexpr array shares = {0.95, 0.9, 0.8, 0.7, 0.6, 0.5};
 /// The gain in size that makes up for a shorter time in view, and for a camera that moves.
 constexpr double worth_cutting = 1.3, worth_moving = 1.3;
 /// The share of the bodies in view from which on a view need not keep more, and a gain in it that is worth a move.
-constexpr double many_kept = 0.75, worth_keeping = 0.15;
+constexpr double many_kept = 0.75, nearly_all_kept = 0.95, worth_keeping = 0.15;
 /// Of a camera that moves, per second of film: heights of the picture, and the natural logarithm of the distance.
 constexpr double top_speed = 1, top_acceleration = 2;
 
@@ -103,9 +103,11 @@ class Planner {
     const Frustum frustum = frustum_from(elevation);
     Plan still = still_plan(frustum, elevation);
     const bool is_good = still.least >= (view_.is_quiet() ? least_size : good_size);
-    if ((is_good && (still.kept >= many_kept || view_.is_quiet())) || orbit_ > 0) return still;
-    Plan moving = moving_plan(frustum);
-    const bool is_better = is_good ? moving.least >= good_size && moving.kept > still.kept + worth_keeping
+    if ((is_good && (still.kept >= many_kept || view_.is_quiet())) || orbit_ > 0 || samples_.instants() < 3)
+      return still;
+
+    Plan moving = moving_plan(frustum, is_good ? fair_size : good_size);
+    const bool is_better = is_good ? moving.least >= fair_size && moving.kept > still.kept + worth_keeping
                                    : moving.least > worth_moving * still.least;
     return is_better ? moving : still;
   }
@@ -116,7 +118,7 @@ class Planner {
     for (size_t scope = MotionView::whole; scope-- > 0 && !view_.is_quiet();) {
       if (best.least >= (scope >= widest_cut ? large : good_size)) break;
       Plan plan = still_plan(frustum, elevation, scope);
-      if (best.least >= good_size && plan.kept < many_kept) break;
+      if (best.least >= good_size && plan.kept < nearly_all_kept) break;
       if (plan.least > worth_cutting * best.least) best = std::move(plan);
     }
     return best;
@@ -170,12 +172,12 @@ class Planner {
   }
 
   /// The widest scope in which bodies are large enough as they collide, or the one in which they are largest.
-  Plan moving_plan(const Frustum& frustum) const {
+  Plan moving_plan(const Frustum& frustum, double enough) const {
     Plan best;
     for (size_t scope = view_.is_quiet() ? 1 : MotionView::whole; scope-- > 0;) {
       Plan plan = moving_plan(frustum, scope);
       if (plan.least > worth_cutting * best.least) best = std::move(plan);
-      if (best.least >= good_size) break;
+      if (best.least >= enough) break;
     }
     return best;
   }
@@ -284,7 +286,7 @@ class Planner {
 
   Hidden hidden_in(const CameraViews& views) const {
     Hidden hidden;
-    if (!sight_.may_hide()) return hidden;
+    if (!sight_.may_hide() || samples_.instants() < 2) return hidden;
     const size_t bodies = samples_.bodies().size();
     size_t lines = 0, behind = 0;
     vector<size_t> by_thing(scene_.world.fixed_count());

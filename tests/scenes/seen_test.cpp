@@ -68,13 +68,13 @@ class Watching {
 Seen seen_of(const Scene& scene) {
   MovingCamera camera(scene, size);
   MovingCamera* const cameras[] = {&camera};
-  survey(cameras, *make_simulator(scene), [] {});
+  survey(cameras, *make_simulator(scene, {.collisions = true}), [] {});
 
   double from = infinity, until = 0;
   for (const Ticks& ticks : shown_instants(scene))
     from = min(from, ticks.at(ticks.first())), until = max(until, ticks.at(ticks.last()));
   Watching watching(scene, camera);
-  const auto simulator = make_simulator(scene);
+  const auto simulator = make_simulator(scene, {.collisions = true});
   while (simulator->time() < until) {
     simulator->advance_to(until);
     for (const Collision& collision : simulator->collisions())
