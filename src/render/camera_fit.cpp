@@ -15,20 +15,20 @@
 namespace carom {
 namespace {
 
-/// The part of the picture's height that a body has at least as it collides: in a view that need not come nearer, that
-/// need not move, that moves to keep more bodies, and in which it is seen at all.
-constexpr double large = 0.08, good_size = 0.045, fair_size = 0.03, least_size = 0.02;
+/// The part of the picture's height that a body has at least as it collides: in the nearest view, in one that need not
+/// come nearer, in one that need not move, in one that moves to keep more bodies, and in one that shows it at all.
+constexpr double largest = 0.25, large = 0.08, good_size = 0.045, fair_size = 0.03, least_size = 0.02;
 /// Where bodies are smaller, the shares of the impulses that may be all that is framed.
 constexpr array shares = {0.95, 0.9, 0.8, 0.7, 0.6, 0.5};
 /// The gain in size that makes up for a shorter time in view, and for a camera that moves.
 constexpr double worth_cutting = 1.3, worth_moving = 1.3;
 /// The share of the bodies in view from which on a view need not keep more, and a gain in it that is worth a move.
-constexpr double many_kept = 0.75, nearly_all_kept = 0.95, worth_keeping = 0.15;
+constexpr double some_kept = 0.35, nearly_all_kept = 0.95, worth_keeping = 0.15;
 /// Of a camera that moves, per second of film: heights of the picture, and the natural logarithm of the distance.
 constexpr double top_speed = 1, top_acceleration = 2;
 
-constexpr array elevations = {slight_elevation, 30.0, 45.0, 60.0, 75.0};  // degrees
-constexpr size_t flat_from = 1;                                           // of a flat motion
+constexpr array elevations = {slight_elevation, 30.0, 45.0, 60.0};  // degrees
+constexpr size_t flat_from = 1;                                     // of a flat motion
 /// A steeper view of a flat motion shows bodies apart, unless they become smaller than so.
 constexpr double worth_height = 0.95;
 /// Directions of a round at which the motion is framed.
@@ -71,6 +71,7 @@ class Planner {
 
   double least() const { return best_.least; }
   bool is_quiet() const { return view_.is_quiet(); }
+  size_t strikes() const { return view_.strikes().size(); }
   CameraViews views() const { return best_.views; }
 
  private:
@@ -95,15 +96,16 @@ class Planner {
     const Frustum frustum = frustum_from(elevations.front());
     const Extent bodies = view_.content(frustum, MotionView::whole).bodies;
     if (2 * size_along(bodies, frustum.up()) >= size_along(bodies, frustum.front())) return 0;
-    const double low = plan_from(elevations[flat_from]).least, high = plan_from(elevations[flat_from + 1]).least;
-    return high > worth_height * low ? flat_from + 1 : flat_from;
+    const Plan low = plan_from(elevations[flat_from]), high = plan_from(elevations[flat_from + 1]);
+    const bool is_as_good = high.least > worth_height * low.least && high.kept > worth_height * low.kept;
+    return flat_from + is_as_good;
   }
 
   Plan plan_from(double elevation) const {
     const Frustum frustum = frustum_from(elevation);
     Plan still = still_plan(frustum, elevation);
     const bool is_good = still.least >= (view_.is_quiet() ? least_size : good_size);
-    if ((is_good && (still.kept >= many_kept || view_.is_quiet())) || orbit_ > 0 || samples_.instants() < 3)
+    if ((is_good && (still.kept >= some_kept || view_.is_quiet())) || orbit_ > 0 || samples_.instants() < 3)
       return still;
 
     Plan moving = moving_plan(frustum, is_good ? fair_size : good_size);
@@ -142,7 +144,15 @@ class Planner {
       eye = middle - frustum.view().forward;
     }
 
-    Plan plan{{lens_, {}, {}}, 0};
+    // Nor nearer than necessary.
+    Plan plan{{lens_, {}, {}}};
+    measure(plan, frustum, [&](size_t) -> const Vec3& { return eye; });
+    if (plan.least > largest) {
+      const double back = (plan.least / largest - 1) * distance;
+      eye -= back * frustum.view().forward;
+      distance += back;
+    }
+
     plan.views.camera.eye = eye;
     plan.views.camera.target = eye + distance * frustum.view().forward;
     set_limits(plan.views.camera, distance, distance);
@@ -268,7 +278,7 @@ class Planner {
   Plan plan_along(const Frustum& frustum, const vector<Vec3>& eyes, const vector<double>& depths) const {
     const auto [nearest, farthest] = ranges::minmax_element(depths);
     if (!(*nearest > 0)) return {};
-    Plan plan{{lens_, {}, {}}, 0};
+    Plan plan{{lens_, {}, {}}};
     for (size_t k = 0; k < eyes.size(); ++k)
       plan.views.path.push_back({samples_.time(k), eyes[k], eyes[k] + depths[k] * frustum.view().forward, lens_.fov});
     plan.views.camera.eye = plan.views.path.front().eye;
@@ -341,13 +351,15 @@ CameraViews frame_views(const Scene& scene, const MotionSamples& samples, Size s
   const Planner all(scene, samples, size, pace, 1);
   if (all.least() >= least_size) return all.views();
 
-  // Where not all can be seen, most of it. If the least share is not seen much better, no share is.
+  // Where not all can be seen, most of it, and at least half of the collisions. If the least share is not seen much
+  // better, no share is.
   CameraViews best = all.views();
   double best_worth = all.least();
   const Planner fewest(scene, samples, size, pace, shares.back());
   if (all.is_quiet() || fewest.least() <= worth_cutting * all.least()) return best;
   for (const double share : shares) {
     const Planner most(scene, samples, size, pace, share);
+    if (2 * most.strikes() < all.strikes()) break;
     const double worth = share * min(most.least(), least_size);
     if (worth <= worth_cutting * best_worth) continue;
     best = most.views();

@@ -17,7 +17,7 @@ namespace carom {
 /// speeds in half a second. If bodies are smaller than a fiftieth even so, the hardest collisions alone are framed,
 /// as many as can be.
 ///
-/// It looks from the lowest of five elevations from which no fixed thing hides what happens. If all do, these things
+/// It looks from the lowest of four elevations from which no fixed thing hides what happens. If all do, these things
 /// are to be faded. It is the same for any order of bodies.
 CameraViews frame_views(const Scene& scene, const MotionSamples& samples, Size size, double pace);
 

@@ -8,6 +8,7 @@
 #include "render/moving_camera.h"
 #include "render/sight.h"
 #include "run/engine.h"
+#include "run/motion_sink.h"
 #include "run/survey.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
@@ -65,27 +66,47 @@ class Watching {
   Seen seen_;
 };
 
+/// Keeps the collisions of the time that pictures show.
+class Keeping final : public MotionSink {
+ public:
+  explicit Keeping(const Scene& scene) {
+    for (const Ticks& ticks : shown_instants(scene)) {
+      from_ = min(from_, ticks.at(ticks.first()));
+      until_ = max(until_, ticks.at(ticks.last()));
+    }
+  }
+  bool more() const override { return more_; }
+  double time() override { return until_; }
+  void record(const Simulator& simulator) override {
+    for (const Collision& c : simulator.collisions())
+      if (c.kind != CollisionKind::rest && c.time >= from_ && c.time <= until_) kept.push_back(c);
+  }
+  void sample(Simulator&) override { more_ = false; }
+  void end_at(double time) override { until_ = time; }
+
+  vector<Collision> kept;
+
+ private:
+  double from_ = infinity, until_ = 0;
+  bool more_ = true;
+};
+
 Seen seen_of(const Scene& scene) {
   MovingCamera camera(scene, size);
   MovingCamera* const cameras[] = {&camera};
-  survey(cameras, *make_simulator(scene, {.collisions = true}), [] {});
-
-  double from = infinity, until = 0;
-  for (const Ticks& ticks : shown_instants(scene))
-    from = min(from, ticks.at(ticks.first())), until = max(until, ticks.at(ticks.last()));
-  Watching watching(scene, camera);
+  Framing framing(cameras);
+  Keeping keeping(scene);
+  MotionSink* const sinks[] = {&framing, &keeping};
   const auto simulator = make_simulator(scene, {.collisions = true});
-  while (simulator->time() < until) {
-    simulator->advance_to(until);
-    for (const Collision& collision : simulator->collisions())
-      if (collision.kind != CollisionKind::rest && collision.time >= from && collision.time <= until)
-        watching.see(simulator->state(), collision);
-  }
+  carry_through(*simulator, sinks, scene.simulate.duration, unguarded, {.stop_check = [] {}});
+  framing.finish();
+
+  Watching watching(scene, camera);
+  for (size_t i = 0; i < keeping.kept.size(); i += 1 + keeping.kept.size() / 20000)
+    watching.see(simulator->state(), keeping.kept[i]);
   if (getenv("SEEN")) {
     const Seen& s = watching.seen();
-    std::cout << "SEEN " << s.all << " out " << s.outside << " hidden " << s.hidden << " least " << s.least << " moves "
-              << !camera.stands_still() << " faded " << camera.faded().size() << " elev "
-              << std::asin(-view_of(camera.at(scene.initial), size).forward.y()) * 180 / M_PI << "\n";
+    std::cout << "SEEN " << s.all << " out " << s.outside << " hidden " << s.hidden << " least " << s.least << " moves " << !camera.stands_still() << " faded " << camera.faded().size() << " elev " << std::asin(-view_of(camera.at(scene.initial), size).forward.y()) * 180 / M_PI << "\n";
   }
   return watching.seen();
 }
