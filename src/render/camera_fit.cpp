@@ -300,6 +300,7 @@ class Planner {
     const size_t bodies = samples_.bodies().size();
     size_t lines = 0, behind = 0;
     vector<size_t> by_thing(scene_.world.fixed_count());
+    vector<bool> behind_strikes(scene_.world.fixed_count());
     const auto look = [&](size_t instant, size_t i) {
       Camera camera = views.camera;
       if (!views.path.empty()) camera.eye = views.path[instant].eye, camera.target = views.path[instant].target;
@@ -310,14 +311,15 @@ class Planner {
       ++lines;
       behind += !hiders.empty();
       for (const Entity e : hiders) ++by_thing[e - scene_.world.body_count()];
-      return !hiders.empty();
+      return hiders;
     };
 
     // Collisions, and what goes into them and comes out of them.
     const size_t most = min(most_lines, max<size_t>(most_tests / sight_.count(), 1));
     const size_t step = 1 + view_.strikes().size() / most;
     for (size_t i = 0; i < view_.strikes().size(); i += step)
-      hidden.strikes = look(view_.strikes()[i].instant, view_.strikes()[i].body) || hidden.strikes;
+      for (const Entity e : look(view_.strikes()[i].instant, view_.strikes()[i].body))
+        behind_strikes[e - scene_.world.body_count()] = hidden.strikes = true;
     const size_t all = bodies * samples_.instants(), stride = 1 + all / most;
     for (size_t n = 0; n < all; n += stride) {
       const size_t instant = n / bodies, i = n % bodies;
@@ -326,7 +328,8 @@ class Planner {
 
     hidden.share = lines > 0 ? double(behind) / double(lines) : 0;
     for (size_t thing = 0; thing < by_thing.size(); ++thing)
-      if (by_thing[thing] > 0) hidden.behind.push_back(Entity(scene_.world.body_count() + thing));
+      if (behind_strikes[thing] || double(by_thing[thing]) > may_be_hidden * double(lines))
+        hidden.behind.push_back(Entity(scene_.world.body_count() + thing));
     return hidden;
   }
 

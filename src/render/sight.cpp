@@ -80,20 +80,24 @@ vector<Entity> Sight::hiders(const World& world, double time, const Vec3& eye, c
   const double side = 2.0 / 3 * radius;
   const array<Vec3, 5> points{center, center + side * view.right, center - side * view.right, center + side * view.up,
                               center - side * view.up};
+  const auto most = [&](ptrdiff_t count) { return 2 * size_t(count) > points.size(); };
   array<bool, 5> hidden{};
-  vector<Entity> hiders;
+  vector<Entity> alone, together;
 
   for (const Entity e : opaque_) {
     const Vec3 at = world.moves(e) ? fixed_position(world, e, {time, 0}) : world.fixed_position(e);
-    bool takes_part = false;
+    ptrdiff_t count = 0;
     for (size_t i = 0; i < points.size(); ++i) {
       if (!hides(world, e, at, eye, points[i])) continue;
-      hidden[i] = takes_part = true;
+      hidden[i] = true;
+      ++count;
     }
-    if (takes_part) hiders.push_back(e);
+    if (count > 0) together.push_back(e);
+    if (most(count)) alone.push_back(e);
   }
-  if (2 * size_t(ranges::count(hidden, true)) <= points.size()) hiders.clear();
-  return hiders;
+
+  if (!alone.empty()) return alone;
+  return most(ranges::count(hidden, true)) ? together : alone;
 }
 
 }  // namespace carom

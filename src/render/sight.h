@@ -17,7 +17,7 @@ class Sight {
   bool may_hide() const { return !opaque_.empty(); }
   /// The number of these things.
   size_t count() const { return opaque_.size(); }
-  /// The fixed things that hide a body's middle or a part of it, ascending, if they hide most of it. `world`: the
+  /// The fixed things that hide most of a body, each or else together, ascending. `world`: the
   /// scene's with the times that events have set. `time`: s.
   vector<Entity> hiders(const World& world, double time, const Vec3& eye, const CameraFrame& view, const Vec3& center,
                         double radius) const;
