@@ -104,29 +104,34 @@ Seen seen_of(const Scene& scene) {
   Watching watching(scene, camera);
   for (size_t i = 0; i < keeping.kept.size(); i += 1 + keeping.kept.size() / 20000)
     watching.see(simulator->state(), keeping.kept[i]);
-  if (getenv("SEEN")) {
-    const Seen& s = watching.seen();
-    std::cout << "SEEN " << s.all << " out " << s.outside << " hidden " << s.hidden << " least " << s.least << " moves " << !camera.stands_still() << " faded " << camera.faded().size() << " elev " << std::asin(-view_of(camera.at(scene.initial), size).forward.y()) * 180 / M_PI << "\n";
-  }
   return watching.seen();
 }
 
 class EverySceneWithoutCamera : public ::testing::TestWithParam<string> {};
 
+/// Scenes of bodies that are tiny beside the space in which they collide, all the time and everywhere.
+constexpr array tiny = {"binary_stars", "effusion", "piston"};
+/// Its simulation takes a minute.
+constexpr array slow = {"funnel"};
+
+bool is_among(span<const char* const> names, const string& name) {
+  return ranges::find(names, name) != names.end();
+}
+
 TEST_P(EverySceneWithoutCamera, ShowsWhatCollides) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "pile_at_rest", "binary_stars", "hourglass",
+                       "lattice", "pour_into_bowl", "pi_to_six_digits", "piston", "opening_gate", "shaken_tray");
+  if (is_among(slow, GetParam())) return;
   Scene scene = load(GetParam());
+  // In the frames of the engine book bodies overlap before they collide.
   if (scene.simulate.engine == Engine::book) return;
   scene.camera.reset();
+
   const Seen seen = seen_of(scene);
   EXPECT_EQ(seen.outside, 0u);
   EXPECT_EQ(seen.hidden, 0u);
-  EXPECT_GE(seen.least, seen.all > 0 ? 0.02 : 0);
-}
-
-TEST_P(EverySceneWithoutCamera, OwnCamera) {
-  Scene scene = load(GetParam());
-  if (scene.simulate.engine == Engine::book || !scene.camera || !getenv("SEEN")) return;
-  seen_of(scene);
+  const double least = seen.all == 0 ? 0 : is_among(tiny, GetParam()) ? 0.005 : 0.02;
+  EXPECT_GE(seen.least, least);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneWithoutCamera, ::testing::ValuesIn(scene_names()),
