@@ -382,6 +382,7 @@ Json camera_json(const Scene& scene, const Findings& findings) {
           {"plus_x", camera.plus_x},
           {"fov_x_degrees", camera.fov_x},
           {"fov_y_degrees", camera.fov_y},
+          // What it shows.
           {"out_of_view", camera.out_of_view ? Json(camera.out_of_view->size()) : Json(nullptr)},
           {"out_of_view_names", names},
           {"watched_from_s", foresight.watched_from},

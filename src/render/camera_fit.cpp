@@ -31,11 +31,13 @@ constexpr array elevations = {slight_elevation, 30.0, 45.0, 60.0};  // degrees
 constexpr size_t flat_from = 1;                                     // of a flat motion
 /// A steeper view of a flat motion shows bodies apart, unless they become smaller than so.
 constexpr double worth_height = 0.95;
+/// Fewer are known only of very many bodies, which no camera goes along with.
+constexpr size_t few_instants = 32;
 /// Directions of a round at which the motion is framed.
 constexpr int round_views = 24;
 
 /// Lines of sight that are tried, and tests of things on them.
-constexpr size_t most_lines = 4000, most_tests = 400000;
+constexpr size_t most_lines = 20000, most_tests = 400000;
 /// The part of the lines that may be hidden if all collisions are seen.
 constexpr double may_be_hidden = 0.02;
 
@@ -59,10 +61,10 @@ struct Hidden {
   bool none() const { return !strikes && share <= may_be_hidden; }
 };
 
-class Planner {
+class ViewPlanner {
  public:
   /// `share`: of MotionView.
-  Planner(const Scene& scene, const MotionSamples& samples, Size size, double pace, double share)
+  ViewPlanner(const Scene& scene, const MotionSamples& samples, Size size, double pace, double share)
       : scene_(scene), samples_(samples), view_(scene, samples, pace, share), sight_(scene), size_(size), pace_(pace) {
     if (scene.camera) lens_ = *scene.camera, orbit_ = scene.camera->orbit, parallel_ = scene.camera->orthographic;
     if (parallel_) lens_ = from_afar(lens_);
@@ -105,7 +107,7 @@ class Planner {
     const Frustum frustum = frustum_from(elevation);
     Plan still = still_plan(frustum, elevation);
     const bool is_good = still.least >= (view_.is_quiet() ? least_size : good_size);
-    if ((is_good && (still.kept >= some_kept || view_.is_quiet())) || orbit_ > 0 || samples_.instants() < 3)
+    if ((is_good && (still.kept >= some_kept || view_.is_quiet())) || orbit_ > 0 || samples_.instants() < few_instants)
       return still;
 
     Plan moving = moving_plan(frustum, is_good ? fair_size : good_size);
@@ -166,6 +168,8 @@ class Planner {
     plan.least = 1;
     for (const MotionView::Strike& strike : view_.strikes()) {
       const Vec3& center = samples_.center(strike.instant, strike.body);
+      // Of a quiet motion some may have left.
+      if (view_.is_quiet() && !frustum.has(center, eye(strike.instant))) continue;
       const double depth = frustum.view().forward.dot(center - eye(strike.instant));
       const double height = 2 * samples_.volume(strike.instant, strike.body).half.maxCoeff();
       plan.least = min(plan.least, height / frustum.height(depth));
@@ -262,10 +266,12 @@ class Planner {
     Vec3 before = Vec3::Zero();
     for (size_t k = 0; k + 1 < eyes.size(); ++k) {
       if (!(depths[k] > 0 && depths[k + 1] > 0)) return false;
+
       const Vec3 way = (eyes[k + 1] - eyes[k]) / frustum.height(depths[k]);
       const Vec3 speed =
           Vec3(frustum.view().right.dot(way), frustum.view().up.dot(way), std::log(depths[k + 1] / depths[k])) /
           film_s(k);
+
       const double pan = hypot(speed.x(), speed.y()), zoom = std::abs(speed.z());
       const Vec3 gain = (speed - before) / film_s(k);
       if (max(pan, zoom) > top_speed) return false;
@@ -301,10 +307,12 @@ class Planner {
     size_t lines = 0, behind = 0;
     vector<size_t> by_thing(scene_.world.fixed_count());
     vector<bool> behind_strikes(scene_.world.fixed_count());
+
     const auto look = [&](size_t instant, size_t i) {
       Camera camera = views.camera;
       if (!views.path.empty()) camera.eye = views.path[instant].eye, camera.target = views.path[instant].target;
       if (orbit_ > 0) camera = turned(camera, 360 * samples_.time(instant) / orbit_);
+
       const vector<Entity> hiders =
           sight_.hiders(samples_.world(), samples_.time(instant), camera.eye, view_of(camera, size_),
                         samples_.center(instant, i), samples_.volume(instant, i).half.maxCoeff());
@@ -320,6 +328,7 @@ class Planner {
     for (size_t i = 0; i < view_.strikes().size(); i += step)
       for (const Entity e : look(view_.strikes()[i].instant, view_.strikes()[i].body))
         behind_strikes[e - scene_.world.body_count()] = hidden.strikes = true;
+
     const size_t all = bodies * samples_.instants(), stride = 1 + all / most;
     for (size_t n = 0; n < all; n += stride) {
       const size_t instant = n / bodies, i = n % bodies;
@@ -351,17 +360,18 @@ class Planner {
 }  // namespace
 
 CameraViews frame_views(const Scene& scene, const MotionSamples& samples, Size size, double pace) {
-  const Planner all(scene, samples, size, pace, 1);
+  const ViewPlanner all(scene, samples, size, pace, 1);
   if (all.least() >= least_size) return all.views();
 
   // Where not all can be seen, most of it, and at least half of the collisions. If the least share is not seen much
   // better, no share is.
   CameraViews best = all.views();
   double best_worth = all.least();
-  const Planner fewest(scene, samples, size, pace, shares.back());
+  const ViewPlanner fewest(scene, samples, size, pace, shares.back());
   if (all.is_quiet() || fewest.least() <= worth_cutting * all.least()) return best;
+
   for (const double share : shares) {
-    const Planner most(scene, samples, size, pace, share);
+    const ViewPlanner most(scene, samples, size, pace, share);
     if (2 * most.strikes() < all.strikes()) break;
     const double worth = share * min(most.least(), least_size);
     if (worth <= worth_cutting * best_worth) continue;

@@ -48,6 +48,7 @@ vector<Vec3> anchors_of(const Scene& scene) {
     if (string.other == no_entity && !ranges::binary_search(overlay.hidden_strings, k))
       anchors.push_back(string.anchor);
   }
+
   for (size_t k = 0; k < scene.world.forces.size(); ++k) {
     const Spring* const spring = std::get_if<Spring>(&scene.world.forces[k].law);
     if (spring != nullptr && ranges::find(overlay.hidden_springs, k) == overlay.hidden_springs.end())
@@ -277,6 +278,7 @@ MotionView::Content MotionView::content(const Frustum& frustum, size_t scope) co
     add_fixed_things(content, frustum);
     return content;
   }
+
   if (scope == whole) {
     content = without_the_leaving(frustum);
   } else {
@@ -284,6 +286,7 @@ MotionView::Content MotionView::content(const Frustum& frustum, size_t scope) co
       for (size_t i = 0; i < samples_.bodies().size(); ++i)
         if (is_in(scope, k, i)) add(content, frustum, k, i);
   }
+
   if (is_of_some_)
     add_named_things(content, frustum);
   else
@@ -296,6 +299,7 @@ vector<MotionView::Moment> MotionView::moments(const Frustum& frustum, size_t sc
   for (size_t k = 0; k < moments.size(); ++k) {
     Moment& moment = moments[k];
     Extent extent;
+
     for (size_t i = 0; i < samples_.bodies().size(); ++i) {
       if (!is_in(scope, k, i) || !samples_.is_there(k, i)) continue;
       const Vec3& center = samples_.center(k, i);
@@ -303,6 +307,7 @@ vector<MotionView::Moment> MotionView::moments(const Frustum& frustum, size_t sc
       frustum.add(moment.reach, center, max(min(room_alongside * radius, room_), radius));
       extent.include(center);
     }
+
     if (moment.reach.empty()) continue;
     moment.middle = extent.middle();
     for (const Vec3& anchor : anchors_) frustum.add(moment.reach, anchor, 0);

@@ -9,7 +9,7 @@ namespace carom {
 namespace {
 
 /// A part of a line of sight, which goes from 0 at the eye to 1.
-struct Interval {
+struct LinePart {
   double from = 0, until = 1;
   /// Keeps the part where low <= at + t * way <= high.
   void cut(double at, double way, double low, double high) {
@@ -36,8 +36,9 @@ struct Interval {
 
 /// Whether a line of sight from `at` along `way` meets a volume about the origin. One that begins inside does not.
 bool meets(const Volume& volume, const Vec3& at, const Vec3& way) {
-  Interval part;
+  LinePart part;
   const Vec3& half = volume.half;
+
   if (volume.shape == Shape::sphere) {
     part.cut(at, way, half.x());
   } else {
@@ -48,6 +49,7 @@ bool meets(const Volume& volume, const Vec3& at, const Vec3& way) {
       part.cut(Vec3(at.x(), 0, at.z()), Vec3(way.x(), 0, way.z()), half.x());
     }
   }
+
   return part.from > 0 && part.until - part.from > 1e-9;
 }
 

@@ -51,6 +51,7 @@ Framing::Framing(span<MovingCamera* const> cameras) : timeline_(duration_of(came
       same->cameras.push_back(camera);
       continue;
     }
+
     const ShownTime shown = shown_time(scene);
     const int64_t count = shown.from < shown.until ? worthwhile_instants(scene.world.body_count()) : 1;
     const int stream = timeline_.add(Ticks::even(count, shown.from, shown.until));

@@ -77,6 +77,7 @@ class CameraDecoder {
     if (keys_.orbit) plan_.orbit = keys_.orbit->period;
     plan_.fit = keys_.fit.has_value();
     if (plan_.fit && keys_.fit->on != nullptr) fit_on(*keys_.fit->on);
+
     if (keys_.follow != nullptr) {
       follow(*keys_.follow);
     } else if (path != nullptr && path->is_sequence()) {
@@ -95,6 +96,7 @@ class CameraDecoder {
     for (const Node& name : names.items) {
       const auto range = find_range(name, inventory_, Sought::anything, diagnostics_);
       if (!range || !inventory_.fits) continue;
+
       const World& world = scene_.world;
       const bool is_string = diagnostics_.empty() && range->first >= world.body_count() + world.fixed_count();
       if (range->count == 0 || is_string) {
@@ -104,8 +106,10 @@ class CameraDecoder {
                          "expected balls, bodies, groups, members (gas.3) or fixed things");
         continue;
       }
+
       for (Entity i = 0; i < range->count; ++i) plan_.fit_on.push_back(range->first + i);
     }
+
     ranges::sort(plan_.fit_on);
     plan_.fit_on.erase(std::unique(plan_.fit_on.begin(), plan_.fit_on.end()), plan_.fit_on.end());
   }

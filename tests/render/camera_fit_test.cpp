@@ -120,13 +120,13 @@ TEST(CameraFit, AWallThatIsMetIsInViewAndOneFarBehindIsNot) {
 }
 
 TEST(CameraFit, AnInvisibleWallIsNotFramed) {
-  Scene scene = one_ball();
+  Scene scene = one_ball(0.12);
   test::add_wall(scene, Vec3(1.5, 2, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0), 3, 3, test::green);
   const Camera with = camera_for(scene, 3, marble);
   scene.roster.fixed[0].visible = false;
   const Camera without = camera_for(scene, 3, marble);
   EXPECT_GT((with.eye - with.target).norm(), (without.eye - without.target).norm());
-  EXPECT_EQ(without, camera_for(one_ball(), 3, marble));
+  EXPECT_EQ(without, camera_for(one_ball(0.12), 3, marble));
 }
 
 TEST(CameraFit, ThePointOfAStringIsInView) {
@@ -163,7 +163,7 @@ TEST(CameraFit, AFloorOfAnySizeLeavesTheCameraWithTheBodies) {
 }
 
 TEST(CameraFit, TheFloorBelowIsInViewUnlessItIsFarAway) {
-  Scene scene = one_ball();
+  Scene scene = one_ball(0.12);
   const Camera alone = camera_for(scene, 3, marble);
   test::add_plane(scene, Vec3(0, -2, 0), Vec3(0, 1, 0), test::green);
   Filled filled(camera_for(scene, 3, marble));

@@ -37,6 +37,7 @@ CameraViews views_of(const Scene& scene, const Course& course, double duration) 
     const double before = duration * (i - 1) / count;
     state.time = duration * i / count;
     vector<Collision> collisions;
+
     for (Entity ball = 0; ball < course.legs.size(); ++ball) {
       const Course::Leg& leg = course.leg(ball, state.time);
       state.position[ball] = leg.at + (state.time - leg.from) * leg.velocity;
@@ -45,6 +46,7 @@ CameraViews views_of(const Scene& scene, const Course& course, double duration) 
         collisions.push_back(
             {leg.from, CollisionKind::body_fixed, ball, scene.world.body_count(), leg.at, Vec3(0, 1, 0), 1, 1, 1});
     }
+
     fit.strike(collisions);
     fit.add(state);
   }
@@ -86,6 +88,7 @@ TEST(CameraStory, ShowsACollisionLargeHoweverFarTheBallsGo) {
       moving.frame(views);
       return moving;
     }();
+
     State state = scene.initial;
     state.time = 1;
     for (const double x : {-0.1, 0.1}) {
@@ -117,6 +120,7 @@ TEST(CameraStory, GoesAlongWithABodyThatCollidesOnALongWay) {
   const Course course = travelling(2);
   const CameraViews views = views_of(scene, course, 20);
   ASSERT_FALSE(views.path.empty());
+
   MovingCamera camera(scene, picture);
   camera.frame(views);
   State state = scene.initial;
@@ -134,6 +138,7 @@ TEST(CameraStory, PansAndComesNearerNoFasterThanAHand) {
     const Scene scene = balls(1);
     MovingCamera camera(scene, picture);
     camera.frame(views_of(scene, travelling(speed), 20));
+
     const double h = 1.0 / 30;
     State state = scene.initial;
     Vec3 before = Vec3::Zero();
@@ -142,10 +147,12 @@ TEST(CameraStory, PansAndComesNearerNoFasterThanAHand) {
       const Camera now = camera.at(state);
       state.time += h;
       const Camera then = camera.at(state);
+
       const Eye eye(now, picture);
       const double depth = (now.target - now.eye).norm(), deeper = (then.target - then.eye).norm();
       const Vec3 way = eye.direction(then.eye - now.eye) / (2 * depth * eye.tan_y);
       const Vec3 velocity = Vec3(way.x(), way.y(), std::log(deeper / depth)) / h;
+
       EXPECT_LT(hypot(velocity.x(), velocity.y()), 1.01) << speed;
       EXPECT_LT(std::abs(velocity.z()), 1.01) << speed;
       const double gain = i > 0 ? ((velocity - before) / h).head<2>().norm() : 0;
@@ -216,6 +223,7 @@ TEST(CameraStory, GoingRoundItKeepsAllInView) {
   plan.fit = true;
   plan.orbit = 2;
   scene.camera = plan;
+
   MovingCamera camera(scene, picture);
   camera.frame(views_of(scene, meeting(1), 2));
   EXPECT_FALSE(camera.stands_still());

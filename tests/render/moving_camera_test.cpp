@@ -166,6 +166,7 @@ TEST(CameraThatGoesRound, IsBackAfterItsPeriodAndKeepsItsDistance) {
   CameraPlan plan(Camera{.eye = Vec3(1, 3, 9), .target = Vec3(1, 2, 3)});
   plan.orbit = 8;
   scene.camera = plan;
+
   const MovingCamera camera(scene, size);
   EXPECT_FALSE(camera.stands_still());
   State state = scene.initial;

@@ -67,6 +67,7 @@ TEST(CameraPlan, ResolvedItIsTheSamePlan) {
     const Scene scene = load_text(bodies + "camera: " + camera + "\n"), again = load_text(scene.resolved);
     EXPECT_EQ(again.resolved, scene.resolved);
     EXPECT_EQ(static_cast<const Camera&>(*again.camera), static_cast<const Camera&>(*scene.camera)) << camera;
+
     EXPECT_EQ(again.camera->fit, scene.camera->fit);
     EXPECT_EQ(again.camera->fit_on, scene.camera->fit_on);
     EXPECT_EQ(again.camera->orbit, scene.camera->orbit);
