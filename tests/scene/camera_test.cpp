@@ -115,7 +115,7 @@ TEST(CameraPlan, FitsNamedThings) {
   EXPECT_EQ(plan_of("{fit: {on: [gas.1, gas]}}").fit_on, (vector<Entity>{2, 3}));
   EXPECT_EQ(error_of("{fit: {on: [rde]}}"), "nothing is named `rde`");
   EXPECT_EQ(error_of("{fit: {on: [gas.9]}}"), "the group `gas` has no member `9`");
-  EXPECT_EQ(error_of("{fit: all}"), "`fit` is \"all\"");
+  EXPECT_EQ(error_of("{fit: all}"), "`to` is `all`");
 }
 
 TEST(CameraPlan, AStringCannotBeFramed) {
@@ -133,7 +133,7 @@ TEST(CameraPlan, GoesRoundAndProjectsInParallel) {
   EXPECT_FALSE(plan_of("{fit: motion, projection: perspective}").orthographic);
   EXPECT_EQ(error_of("{fit: motion, orbit: {period: 0}}"), "`period` is 0");
   EXPECT_EQ(error_of("{fit: motion, orbit: {}}"), "`orbit` has no `period`");
-  EXPECT_EQ(error_of("{fit: motion, projection: flat}"), "`projection` is \"flat\"");
+  EXPECT_EQ(error_of("{fit: motion, projection: flat}"), "`projection` is `flat`");
 }
 
 TEST(CameraErrors, KeysThatDoNotGoTogetherAreRefused) {
@@ -149,7 +149,7 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
   EXPECT_EQ(in_parts(errors_of(start + "camera: {fov: 30}\n")),
             (Parts{{"3:1 camera", "`camera` has no `eye` and no `fit` and no `path` and no `follow`",
                     "expected `eye`: [x, y, z], three numbers in m\n"
-                    "or `fit`: motion\n"
+                    "or `fit`: a map of keys, or a value of `to`\n"
                     "or `path`: a list\n"
                     "or `follow`: a name"}}));
   EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), string::npos);
