@@ -11,11 +11,11 @@ namespace carom {
 
 /// Frames what happens in pictures of a size. `pace`: seconds of motion a second of film.
 ///
-/// It stands still if bodies are then at least a twenty-second as high as the picture as they collide. Else it goes
-/// along, if that shows them larger. Its path is the nearest to them that is as slow as a hand would be: in a second of
-/// film it pans by at most the picture's height, and its distance changes by at most the factor e. It gets to these
-/// speeds in half a second. If bodies are smaller than a fiftieth even so, the hardest collisions alone are framed,
-/// as many as can be.
+/// It stands still if bodies are then at least 4.5 % as high as the picture as they collide. Else it goes along, if
+/// that shows them larger. Its path is the nearest to them that is as slow as a hand would be: in a second of film it
+/// pans by at most the picture's height, and its distance changes by at most the factor e. It gets to these speeds in
+/// half a second. If bodies are smaller than a fiftieth even so, the hardest collisions alone are framed, as many as
+/// can be.
 ///
 /// It looks from the lowest of four elevations from which no fixed thing hides what happens. If all do, these things
 /// are to be faded. It is the same for any order of bodies.
