@@ -116,22 +116,53 @@ string first_collision_text(const PlannedScene& planned, const Foresight& foresi
   return text;
 }
 
+/// Whether the scene has things that may hide bodies. Planes hide nothing.
+bool has_walls(const World& world) {
+  return !world.walls.empty() || !world.obstacles.empty();
+}
+
 struct Findings {
   Foresight foresight;
+  vector<string> faded;            // things
   optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
 };
 
-/// How the camera moves; empty: it stands still. `kind`: as in CameraPreview.
-string camera_text(const Scene& scene, string_view kind) {
-  if (kind == "still") return "";
-  if (kind == "fit") return "frames the motion; ";
-  if (kind == "path") return counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
+/// The things that a camera of `fit: {on: ..}` frames, or goes with.
+string framed_text(const Scene& scene) {
+  if (!scene.camera || scene.camera->fit_on.empty()) return "the motion";
+  vector<string> names;
+  for (const Entity e : scene.camera->fit_on) {
+    const bool whole = scene.world.is_body(e) && scene.roster.range_of(e).group;
+    const string name = whole ? scene.roster.range_of(e).name : scene.roster.name(e);
+    if (names.empty() || names.back() != name) names.push_back(name);
+  }
+  return listed(names, bodies_shown);
+}
+
+string followed_text(const Scene& scene) {
   const auto& follow = scene.camera->follow;
   const BodyRange& range = scene.roster.range_of(follow->first);
-  const string name = follow->count == range.count  ? range.name
-                      : follow->count < range.count ? scene.roster.name(follow->first)
-                                                    : string(range.thing());
-  return fmt::format("follows {}; ", name);
+  return follow->count == range.count  ? range.name
+         : follow->count < range.count ? scene.roster.name(follow->first)
+                                       : string(range.thing());
+}
+
+/// How the camera moves; empty: it stands still.
+string camera_text(const Scene& scene, const CameraPreview& camera) {
+  string text;
+  if (camera.kind == "path") text = counted(scene.camera->path.size(), "keyframe", "keyframes") + "; ";
+  if (camera.kind == "follow") text = fmt::format("follows {}; ", followed_text(scene));
+  const bool orbits = scene.camera && scene.camera->orbit > 0;
+  if (camera.kind == "fit")
+    text = fmt::format("frames {}{}; ", framed_text(scene), camera.moves && !orbits ? ", and moves along" : "");
+  if (orbits) text += fmt::format("goes round in {}; ", quantity(scene.camera->orbit, "s"));
+  return text;
+}
+
+string angles_text(const CameraPreview& camera) {
+  if (camera.parallel)
+    return fmt::format("parallel projection of {:.4g} x {:.4g} m", (*camera.parallel)[0], (*camera.parallel)[1]);
+  return fmt::format("fields of view {:.4g} x {:.4g} degrees", camera.fov_x, camera.fov_y);
 }
 
 string plus_x_text(const string& direction) {
@@ -179,6 +210,27 @@ string crossings_text(const PlannedScene& planned, const Findings& findings) {
   return text;
 }
 
+// "ball is behind lane from 0.3 s to 0.8 s"
+string hidings_text(const PlannedScene& planned, const Findings& findings) {
+  if (!findings.camera->out_of_view) return unknown_view;
+  const Foresight& foresight = findings.foresight;
+  const Roster& roster = planned.scene->roster;
+  vector<string> texts;
+  for (const Hiding& hiding : foresight.hidings) {
+    if (texts.size() == crossings_shown) break;
+    const string when = hiding.from < hiding.until
+                            ? fmt::format("from {} to {}", quantity(hiding.from, "s"), quantity(hiding.until, "s"))
+                            : "at " + quantity(hiding.from, "s");
+    texts.push_back(fmt::format("{} is behind {} {}", roster.name(hiding.body), roster.name(hiding.behind), when));
+  }
+
+  const size_t more = foresight.hidings.size() - texts.size();
+  if (more > 0) texts.push_back(fmt::format("{} more", grouped(more)));
+  string text = texts.empty() ? "no body in the picture" : joined(texts, "; ");
+  if (foresight.cut) text += fmt::format(" (checked up to {})", quantity(foresight.watched_until, "s"));
+  return text;
+}
+
 string content_text(const PlannedScene& planned) {
   switch (planned.found.content) {
     case FolderContent::nothing:
@@ -208,10 +260,13 @@ string content_text(const PlannedScene& planned) {
 Findings examine(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
   if (!scene.camera && !scene.output.pictures())
-    return {foresee(scene, planned.price.engine, nullptr, trial_budget), nullopt};
+    return {foresee(scene, planned.price.engine, nullptr, trial_budget), {}, nullopt};
   MovingCamera camera(scene, picture_size(scene.output));
   const bool known = frame_motion(camera, trial_budget);
-  return {foresee(scene, planned.price.engine, known ? &camera : nullptr, trial_budget), preview_camera(camera, known)};
+  vector<string> faded;
+  for (const uint32_t fixed : camera.faded()) faded.push_back(scene.roster.name(scene.world.body_count() + fixed));
+  return {foresee(scene, planned.price.engine, known ? &camera : nullptr, trial_budget), std::move(faded),
+          preview_camera(camera, known)};
 }
 
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
@@ -270,11 +325,12 @@ void describe(Block& block, const PlannedScene& planned, const Findings& finding
   for (const string& odd : odd_sizes(*planned.scene)) block.line("size", odd);
 
   if (findings.camera) {
-    block.line(
-        "camera",
-        fmt::format("{}{}; fields of view {:.4g} x {:.4g} degrees", camera_text(*planned.scene, findings.camera->kind),
-                    plus_x_text(findings.camera->plus_x), findings.camera->fov_x, findings.camera->fov_y));
+    block.line("camera", fmt::format("{}{}; {}", camera_text(*planned.scene, *findings.camera),
+                                     plus_x_text(findings.camera->plus_x), angles_text(*findings.camera)));
     block.line("unseen", out_of_view_text(planned, *findings.camera));
+    if (has_walls(planned.scene->world)) block.line("hidden", hidings_text(planned, findings));
+    if (!findings.faded.empty())
+      block.line("faded", listed(findings.faded, bodies_shown) + ": from every side tried, what happens is behind");
     block.line("in and out", crossings_text(planned, findings));
   } else {
     block.line("camera", "none: the scene has no pictures");
@@ -295,7 +351,9 @@ Json collision_json(const Scene& scene, const Collision& c) {
           {"approach_speed_m_per_s", c.approach_speed}};
 }
 
-Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresight& foresight) {
+Json camera_json(const Scene& scene, const Findings& findings) {
+  const CameraPreview& camera = *findings.camera;
+  const Foresight& foresight = findings.foresight;
   Json crossings = Json::array();
   for (const ViewChange& crossing : foresight.crossings) {
     if (crossings.size() == crossings_listed) break;
@@ -309,17 +367,35 @@ Json camera_json(const Scene& scene, const CameraPreview& camera, const Foresigh
     names.push_back(scene.roster.name(body));
   }
 
+  Json hidings = Json::array();
+  for (const Hiding& hiding : foresight.hidings) {
+    if (hidings.size() == crossings_listed) break;
+    hidings.push_back({{"body", scene.roster.name(hiding.body)},
+                       {"behind", scene.roster.name(hiding.behind)},
+                       {"from_s", hiding.from},
+                       {"until_s", hiding.until}});
+  }
+
+  const bool parallel = scene.camera && scene.camera->orthographic;
+  const double orbit = scene.camera ? scene.camera->orbit : 0;
   return {{"kind", camera.kind},
+          {"projection", parallel ? "orthographic" : "perspective"},
+          {"moves", camera.moves},
+          {"orbit_s", orbit > 0 ? Json(orbit) : Json(nullptr)},
           {"plus_x", camera.plus_x},
           {"fov_x_degrees", camera.fov_x},
           {"fov_y_degrees", camera.fov_y},
+          // What it shows.
           {"out_of_view", camera.out_of_view ? Json(camera.out_of_view->size()) : Json(nullptr)},
           {"out_of_view_names", names},
           {"watched_from_s", foresight.watched_from},
           {"watched_until_s", foresight.watched_until},
           {"watched_every_s", foresight.every},
           {"crossings", foresight.crossings.size()},
-          {"crossings_listed", crossings}};
+          {"crossings_listed", crossings},
+          {"hidings", foresight.hidings.size()},
+          {"hidings_listed", hidings},
+          {"faded", findings.faded}};
 }
 
 Json as_json(const PlannedScene& planned, const Findings& findings) {
@@ -351,7 +427,7 @@ Json as_json(const PlannedScene& planned, const Findings& findings) {
   if (const string slow = slow_text(scene); !slow.empty()) entry["slow"] = slow;
   if (const vector<string> odd = odd_sizes(scene); !odd.empty()) entry["odd_sizes"] = odd;
 
-  entry["camera"] = findings.camera ? camera_json(scene, *findings.camera, findings.foresight) : Json(nullptr);
+  entry["camera"] = findings.camera ? camera_json(scene, findings) : Json(nullptr);
 
   // What is to come.
   const optional<double> steps = steps_of(scene);

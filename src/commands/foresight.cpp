@@ -14,7 +14,9 @@
 #include "physics/body_now.h"
 #include "physics/force.h"
 #include "physics/world.h"
+#include "physics/world_now.h"
 #include "render/moving_camera.h"
+#include "render/sight.h"
 #include "run/stopwatch.h"
 #include "run/survey.h"
 #include "scene/scene.h"
@@ -59,6 +61,7 @@ class Trial {
   Trial(const Scene& scene, const MovingCamera* camera, double budget)
       : scene_(scene), budget_(budget), camera_(camera) {
     if (camera == nullptr) return;
+    sight_.emplace(scene);
     ticks_ = instants_of(scene, result_);
     next_ = ticks_.first();
     last_ = ticks_.last();
@@ -83,6 +86,7 @@ class Trial {
           error.named([&](Entity body) { return fmt::format("`{}`", scene_.roster.name(body)); }).what();
       result_.cut = result_.cut || next_ <= last_;
     }
+    for (const Hiding& hiding : hidden_) result_.hidings.push_back(hiding);
     return std::move(result_);
   }
 
@@ -155,7 +159,33 @@ class Trial {
       if (!begins && in_view != in_view_[body]) result_.crossings.push_back({body, ticks_.at(next_), in_view});
       in_view_[body] = in_view;
     }
+    check_hidden(state, camera, view);
     result_.watched_until = ticks_.at(next_++);
+  }
+
+  /// Goes on with what hides a body as long as it does.
+  void check_hidden(const State& state, const Camera& camera, const CameraFrame& view) {
+    if (!sight_->may_hide()) return;
+    const World& world = known_.at(state.fired);
+    const double time = ticks_.at(next_);
+    vector<Hiding> before = exchange(hidden_, {});
+    for (Entity body = 0; body < in_view_.size(); ++body) {
+      if (!in_view_[body] || is_gone(state, body)) continue;
+      vector<Entity> hiders =
+          sight_->hiders(world, time, camera.eye, view, state.position[body], radius_now(scene_.world, state, body));
+      std::erase_if(hiders, [&](Entity e) {
+        return ranges::binary_search(camera_->faded(), uint32_t(e - scene_.world.body_count()));
+      });
+      if (hiders.empty()) continue;
+
+      const auto same = ranges::find_if(before, [&](const Hiding& hiding) {
+        return hiding.body == body && ranges::binary_search(hiders, hiding.behind);
+      });
+      hidden_.push_back(same == before.end() ? Hiding{body, hiders.front(), time, time} : *same);
+      hidden_.back().until = time;
+      if (same != before.end()) before.erase(same);
+    }
+    result_.hidings.insert(result_.hidings.end(), before.begin(), before.end());
   }
 
   const Scene& scene_;
@@ -165,6 +195,9 @@ class Trial {
   Ticks ticks_ = Ticks::even(0, 0, 0);
   int64_t next_ = 0, last_ = -1;  // ticks left to check
   vector<bool> in_view_;          // by body, at the previous tick; empty: there was none
+  optional<Sight> sight_;         // of the camera
+  WorldNow known_{scene_.world};
+  vector<Hiding> hidden_;  // at the previous tick
   unique_ptr<Simulator> oracle_;
   double made_s_ = 0, advance_s_ = 0;  // wall times
   PiecesAhead pieces_;                 // so far

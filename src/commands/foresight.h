@@ -20,11 +20,18 @@ struct ViewChange {
   bool enters;
 };
 
+/// A fixed thing hides most of a body in the picture, at each watched instant of a time.
+struct Hiding {
+  Entity body, behind;
+  double from, until;  // s, the first and the last of these instants
+};
+
 struct Foresight {
   optional<Collision> first;                   // none: no collision within the duration
   string trouble;                              // why the first collision is unknown; empty: it is known
   string failure;                              // what stops a run later, as far as was simulated; empty: nothing
   vector<ViewChange> crossings;                // in order of time
+  vector<Hiding> hidings;                      // in order of their ends, those to the end of what is watched last
   double watched_from = 0, watched_until = 0;  // s: crossings are known in between
   double every = 0;                            // s between the watched instants; 0: there were none
   bool cut = false;                            // the simulation ended before the pictures

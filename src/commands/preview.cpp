@@ -2,6 +2,7 @@
 #include "commands/preview.h"
 
 #include "physics/world.h"
+#include "render/eye.h"
 #include "render/moving_camera.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -35,7 +36,14 @@ CameraPreview preview_camera(const MovingCamera& moving, bool known) {
   preview.fov_x = view.fov_x;
   preview.fov_y = view.fov_y;
   preview.kind = kind_of(moving);
+  preview.moves = !moving.stands_still();
   if (!known) return preview;
+
+  if (scene.camera && scene.camera->orthographic) {
+    const Eye eye(camera, moving.size());
+    const double twice = 2 * (camera.target - camera.eye).norm();
+    preview.parallel = {twice * eye.tan_x, twice * eye.tan_y};
+  }
 
   preview.out_of_view.emplace();
   for (Entity body = 0; body < scene.world.body_count(); ++body) {

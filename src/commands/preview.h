@@ -12,6 +12,9 @@ struct CameraPreview {
   string plus_x;                // where +x points in the picture: "right", "left", "up", "down", "away", "toward"
   double fov_x = 0, fov_y = 0;  // degrees, full angles
   string kind;                  // "still", "fit", "follow" or "path"
+  bool moves = false;           // whether it is not the same at all times, as far as is known
+  // m, the picture's size at the target of a parallel projection; none: of a perspective, or not known
+  optional<array<double, 2>> parallel;
   // Bodies wholly outside the picture at time 0; none: not known.
   optional<vector<Entity>> out_of_view;
 };

@@ -62,6 +62,15 @@ CameraFrame view_of(const Camera& camera, Size size) {
   return view;
 }
 
+Camera turned(const Camera& camera, double angle) {
+  Camera turned = camera;
+  const Vec3 axis = camera.up.normalized(), way = camera.eye - camera.target;
+  const Vec3 along = axis.dot(way) * axis, level = way - along;
+  const double radians = std::remainder(angle, 360) * degree;
+  turned.eye = camera.target + along + std::cos(radians) * level + std::sin(radians) * axis.cross(level);
+  return turned;
+}
+
 bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius) {
   // The frustum is symmetric, so that its upper right quarter represents all.
   const Vec3 offset = center - camera.eye;

@@ -19,6 +19,9 @@ struct CameraFrame {
 };
 CameraFrame view_of(const Camera& camera, Size size);
 
+/// The camera as it goes round its target by an angle (degrees) about `up`, counterclockwise from above.
+Camera turned(const Camera& camera, double angle);
+
 /// Whether any part of a sphere is inside the picture (the view frustum, near and far included).
 bool is_sphere_in_view(const Camera& camera, const CameraFrame& view, const Vec3& center, double radius);
 

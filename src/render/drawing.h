@@ -24,6 +24,7 @@ struct Drawing {
   vector<Color> body_colors;  // by body; empty: those of the scene
   vector<float> glow;         // by body, 0 to 1: the share of white light that it sends out; empty: none does
   vector<Stroke> strokes;
+  vector<uint32_t> faded;  // walls and obstacles that hide what happens, by number among all fixed things, ascending
   friend bool operator==(const Drawing&, const Drawing&) = default;
 };
 

@@ -15,9 +15,11 @@ double radians(double degrees) {
 }
 
 /// The front is the side of +z. With z up or down it is that of +y, above.
-Vec3 front_of(const Vec3& up) {
-  const Vec3 front = Vec3(0, 0, 1) - up.z() * up;
-  return front.norm() > 1e-9 ? Vec3(front.normalized()) : Vec3(0, 1, 0);
+Vec3 front_of(const Vec3& up, double azimuth) {
+  const Vec3 level = Vec3(0, 0, 1) - up.z() * up;
+  const Vec3 front = level.norm() > 1e-9 ? Vec3(level.normalized()) : Vec3(0, 1, 0);
+  if (azimuth == 0) return front;
+  return std::cos(radians(azimuth)) * front + std::sin(radians(azimuth)) * up.cross(front);
 }
 
 CameraFrame frame_of(Camera lens, Size size, const Vec3& front, double elevation) {
@@ -28,9 +30,9 @@ CameraFrame frame_of(Camera lens, Size size, const Vec3& front, double elevation
 
 }  // namespace
 
-Frustum::Frustum(const Camera& lens, Size size, double elevation)
+Frustum::Frustum(const Camera& lens, Size size, double elevation, double azimuth)
     : up_(lens.up.normalized()),
-      front_(front_of(up_)),
+      front_(front_of(up_, azimuth)),
       view_(frame_of(lens, size, front_, elevation)),
       tan_x_(used * std::tan(radians(view_.fov_x / 2))),
       tan_y_(used * std::tan(radians(view_.fov_y / 2))),

@@ -13,9 +13,10 @@ inline constexpr double slight_elevation = 18;
 
 class Frustum {
  public:
-  /// Looks from the front, downwards along `up` by `elevation` (degrees). A twentieth of the picture stays free at each
-  /// edge. Of `lens`, up, fov and fov_horizontal count.
-  Frustum(const Camera& lens, Size size, double elevation);
+  /// Looks from the front, downwards along `up` by `elevation` (degrees), and turned about `up` by `azimuth` (degrees,
+  /// counterclockwise from above). A twentieth of the picture stays free at each edge. Of `lens`, up, fov and
+  /// fov_horizontal count.
+  Frustum(const Camera& lens, Size size, double elevation, double azimuth = 0);
 
   /// How far things extend beyond the sides: the least of n . x, with each side's inward normal n (m).
   struct Reach {
@@ -34,6 +35,11 @@ class Frustum {
   double distance(const Reach& reach, const Vec3& target) const;
   /// The height of the whole picture at a depth (m).
   double height(double depth) const { return 2 * depth * tan_y_ / used; }
+
+  /// Whether a point is in view from an eye, the margins left free.
+  bool has(const Vec3& point, const Vec3& eye) const {
+    return all_of(normals_, [&](const Vec3& normal) { return normal.dot(point - eye) >= 0; });
+  }
 
   const CameraFrame& view() const { return view_; }
   const Vec3& up() const { return up_; }  // unit

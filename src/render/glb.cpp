@@ -12,6 +12,7 @@
 #include "render/glb_file.h"
 #include "render/glb_meshes.h"
 #include "render/lighting.h"
+#include "render/parallel.h"
 #include "render/renderer.h"
 #include "render/still_things.h"
 #include "scene/scene.h"
@@ -95,16 +96,37 @@ class GlbBuilder {
 
   void add_camera() {
     const CameraFrame view = view_of(camera_, size_);
-    const size_t number = file_.add("cameras", {{"type", "perspective"},
-                                                {"perspective",
-                                                 {{"aspectRatio", float(size_.width) / float(size_.height)},
-                                                  {"yfov", float(view.fov_y * std::numbers::pi / 180)},
-                                                  {"zfar", float(camera_.far)},
-                                                  {"znear", float(camera_.near)}}}});
+    const size_t number = file_.add("cameras", parallel() ? orthographic(view) : perspective(view));
     camera_node_ = file_.add("nodes", {{"name", free_name("camera")},
-                                       {"translation", floats(camera_.eye)},
+                                       {"translation", floats(eye_of(camera_))},
                                        {"rotation", parts_of(rotation_of(camera_))},
                                        {"camera", number}});
+  }
+
+  bool parallel() const { return scene_.camera && scene_.camera->orthographic; }
+
+  /// The place of the camera's node. Programs know parallel projections, which need no eye far away.
+  Vec3 eye_of(const Camera& camera) const { return parallel() ? from_near(camera).eye : camera.eye; }
+
+  Json perspective(const CameraFrame& view) const {
+    return {{"type", "perspective"},
+            {"perspective",
+             {{"yfov", float(view.fov_y * std::numbers::pi / 180)},
+              {"aspectRatio", float(size_.width) / float(size_.height)},
+              {"zfar", float(camera_.far)},
+              {"znear", float(camera_.near)}}}};
+  }
+
+  Json orthographic(const CameraFrame& view) const {
+    const Camera near = from_near(camera_);
+    const double distance = (camera_.target - camera_.eye).norm();
+    const auto half = [&](double angle) { return float(distance * std::tan(angle * std::numbers::pi / 360)); };
+    return {{"type", "orthographic"},
+            {"orthographic",
+             {{"xmag", half(view.fov_x)},
+              {"ymag", half(view.fov_y)},
+              {"zfar", float(near.far)},
+              {"znear", float(max(near.near, 0.0))}}}};
   }
 
   /// Of the camera's node: it looks along its -z.
@@ -213,7 +235,7 @@ class GlbBuilder {
       Eigen::Quaterniond turn = rotation_of(camera);
       // q and -q are one rotation. Between two of one sign the turn is the shorter one.
       if (turn.dot(before) < 0) turn.coeffs() *= -1;
-      places.push_back(floats(camera.eye));
+      places.push_back(floats(eye_of(camera)));
       turns.push_back(parts_of(turn));
       before = turn;
     }

@@ -1,5 +1,5 @@
-// A motion leaves four numbers (frustum.h) for the bodies that stay, and four for each that may be flying away. Only
-// the motion's end shows which of these return.
+// Of a view in one direction a motion leaves four numbers for each instant (frustum.h), and four for each body that may
+// be flying away. Only the motion's end shows which of these return.
 #include "render/motion_view.h"
 
 #include "physics/body_now.h"
@@ -10,6 +10,10 @@ namespace {
 
 /// A body is a dot if it is lower than this part of the picture.
 constexpr double dot = 0.01;
+/// The free view around a body that a camera goes along with, in its own radii. It then has a tenth of the picture.
+constexpr double room_alongside = 8;
+/// The time after a collision that is in view, in that before it.
+constexpr double time_after = 0.75;
 
 bool meet(const Extent& a, const Extent& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
@@ -35,78 +39,148 @@ double median(vector<double> values) {
   return *middle;
 }
 
+/// The points that visible strings and springs hang from.
+vector<Vec3> anchors_of(const Scene& scene) {
+  vector<Vec3> anchors;
+  const Overlay& overlay = scene.overlay;
+  for (size_t k = 0; k < scene.world.strings.size(); ++k) {
+    const String& string = scene.world.strings[k];
+    if (string.other == no_entity && !ranges::binary_search(overlay.hidden_strings, k))
+      anchors.push_back(string.anchor);
+  }
+
+  for (size_t k = 0; k < scene.world.forces.size(); ++k) {
+    const Spring* const spring = std::get_if<Spring>(&scene.world.forces[k].law);
+    if (spring != nullptr && ranges::find(overlay.hidden_springs, k) == overlay.hidden_springs.end())
+      anchors.push_back(spring->anchor);
+  }
+  return anchors;
+}
+
 }  // namespace
 
 void MotionView::Content::add(const Content& other) {
-  for (size_t i = 0; i < reach.size(); ++i) reach[i].add(other.reach[i]);
+  reach.add(other.reach);
   join(bodies, other.bodies);
   join(near, other.near);
 }
 
-void MotionView::add(const State& state) {
-  const bool first = departures_.empty();
-  departures_.resize(state.position.size());
-  if (first && !state.position.empty()) {
-    for (const Vec3& position : state.position) middle_ += position;
-    middle_ /= double(state.position.size());
-    start_ = time_ = state.time;
+MotionView::MotionView(const Scene& scene, const MotionSamples& samples, double pace, double share)
+    : scene_(scene),
+      samples_(samples),
+      anchors_(anchors_of(scene)),
+      is_of_some_(scene.camera && !scene.camera->fit_on.empty()) {
+  find_departures();
+  find_scopes(pace, share < 1 ? least_impulse(share) : 0);
+  vector<double> radii;
+  for (const Entity body : samples.bodies()) radii.push_back(scene.world.radius[body]);
+  if (!radii.empty()) room_ = room_alongside * median(std::move(radii));
+}
+
+/// Of the collisions that count (N s).
+double MotionView::least_impulse(double share) const {
+  vector<double> impulses;
+  for (size_t k = 0; k < samples_.instants(); ++k)
+    for (size_t i = 0; i < samples_.bodies().size(); ++i)
+      if (samples_.impulse(k, i) >= 0) impulses.push_back(samples_.impulse(k, i));
+  ranges::sort(impulses, std::greater());
+  double all = 0, counted = 0;
+  for (const double impulse : impulses) all += impulse;
+  for (const double impulse : impulses) {
+    counted += impulse;
+    if (counted >= share * all) return impulse;
+  }
+  return 0;
+}
+
+/// The scope of a sample follows from the time to the next collision of its body, and from the last one.
+void MotionView::find_scopes(double pace, double least) {
+  const size_t bodies = samples_.bodies().size(), instants = samples_.instants();
+  scope_.assign(instants * bodies, uint8_t(whole));
+  const auto narrow = [&](size_t instant, size_t i, double film_s) {
+    uint8_t& scope = scope_[instant * bodies + i];
+    scope = min(scope, uint8_t(ranges::lower_bound(windows, film_s) - windows.begin()));
+  };
+
+  for (size_t i = 0; i < bodies; ++i) {
+    double last = -infinity, next = infinity;
+    for (size_t k = 0; k < instants; ++k) {
+      if (samples_.impulse(k, i) >= least) last = samples_.time(k), strikes_.push_back({k, i});
+      narrow(k, i, (samples_.time(k) - last) / (time_after * pace));
+    }
+    for (size_t k = instants; k-- > 0;) {
+      if (samples_.impulse(k, i) >= least) next = samples_.time(k);
+      narrow(k, i, (next - samples_.time(k)) / pace);
+    }
   }
 
-  known_.at(state.fired);
-  const double since = state.time - exchange(time_, state.time);
-  for (Entity body = 0; body < state.position.size(); ++body) {
-    Departure& departure = departures_[body];
-    const Vec3& position = state.position[body];
+  quiet_ = strikes_.empty();
+  if (!quiet_) return;
+  for (size_t i = 0; i < bodies; ++i)
+    for (size_t k = 0; k < instants; ++k)
+      if (samples_.is_there(k, i)) strikes_.push_back({k, i}), scope_[k * bodies + i] = 0;
+}
 
-    // A body departs while it moves away from where all were at the start.
-    const double distance2 = (position - middle_).squaredNorm();
-    const double before = exchange(departure.distance2, distance2);
-    const bool part = is_gone(state, body);
-    const bool departs = !part && before >= 0 && distance2 > before;
+/// A body departs while it moves away from where all were at the start.
+void MotionView::find_departures() {
+  const size_t bodies = samples_.bodies().size(), instants = samples_.instants();
+  departure_.assign(bodies, instants);
+  if (instants == 0 || bodies == 0) return;
+  Vec3 middle = Vec3::Zero();
+  for (size_t i = 0; i < bodies; ++i) middle += samples_.center(0, i);
+  middle /= double(bodies);
 
-    if (!departs && !departure.content.empty()) core_.add(exchange(departure.content, {}));
-    if (part) continue;
-
-    const Volume volume = volume_now(scene_.world, state, body);
-    Content& content = departs ? departure.content : core_;
-    add(content, position, volume);
-
-    // Straight back to what the body has met since the previous instant.
-    content.near.include(position, 3 * volume.half);
-    content.near.include(position - since * state.velocity[body], 3 * volume.half);
+  for (size_t i = 0; i < bodies; ++i) {
+    size_t k = instants - 1;
+    const auto distance2 = [&](size_t instant) { return (samples_.center(instant, i) - middle).squaredNorm(); };
+    while (k > 0 && samples_.is_there(k, i) && distance2(k) > distance2(k - 1)) --k;
+    departure_[i] = k + 1;
   }
 }
 
-void MotionView::add(Content& content, const Vec3& center, const Volume& volume) const {
-  for (size_t i = 0; i < directions_.size(); ++i) directions_[i].add(content.reach[i], center, volume);
+void MotionView::add(Content& content, const Frustum& frustum, const Vec3& center, const Volume& volume) const {
+  frustum.add(content.reach, center, volume);
   content.bodies.include(center, volume.half);
 }
 
-MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size_t direction) const {
-  // The width of a view is proportional to the depth of one point.
-  const Vec3 middle = core_.bodies.middle();
-  const auto depth = [&](const Content& content) { return frustum.depth(content.reach[direction], middle); };
+void MotionView::add(Content& content, const Frustum& frustum, size_t instant, size_t i) const {
+  if (!samples_.is_there(instant, i)) return;
+  const Volume volume = samples_.volume(instant, i);
+  add(content, frustum, samples_.center(instant, i), volume);
+  content.near.include(samples_.center(instant, i), 3 * volume.half);
+}
 
+MotionView::Content MotionView::without_the_leaving(const Frustum& frustum) const {
+  const size_t bodies = samples_.bodies().size(), instants = samples_.instants();
+  Content content;
+  for (size_t i = 0; i < bodies; ++i)
+    for (size_t k = 0; k < min(departure_[i], instants); ++k) add(content, frustum, k, i);
+
+  // The width of a view is proportional to the depth of one point.
+  const Vec3 middle = content.bodies.middle();
+  const auto depth = [&](const Content& of) { return frustum.depth(of.reach, middle); };
+
+  vector<Content> departures;
   vector<pair<double, size_t>> leaving;  // by depth
-  for (size_t body = 0; body < departures_.size(); ++body) {
-    if (departures_[body].content.empty()) continue;
-    Content with = core_;
-    with.add(departures_[body].content);
-    leaving.emplace_back(depth(with), body);
+  for (size_t i = 0; i < bodies; ++i) {
+    if (departure_[i] >= instants) continue;
+    Content& departure = departures.emplace_back();
+    for (size_t k = departure_[i]; k < instants; ++k) add(departure, frustum, k, i);
+    Content with = content;
+    with.add(departure);
+    leaving.emplace_back(depth(with), departures.size() - 1);
   }
-  if (leaving.empty()) return core_;
   ranges::sort(leaving);
 
-  const double largest_dot = dot * frustum.height(1) / (2 * median(scene_.world.radius));  // per m of depth
-  Content content = core_;
-  size_t in_view = departures_.size() - leaving.size();
-  double with_half = depth(core_);
-  for (const auto& [alone, body] : leaving) {
+  const double largest_dot = leaving.empty() ? 0 : dot * frustum.height(1) / (2 * median(scene_.world.radius));
+  size_t in_view = bodies - leaving.size();
+  double with_half = depth(content);
+  for (const auto& [alone, number] : leaving) {
     Content with = content;
-    with.add(departures_[body].content);
+    with.add(departures[number]);
 
     const double deep = depth(with);
-    const bool has_half = 2 * in_view >= departures_.size();
+    const bool has_half = 2 * in_view >= bodies;
     if (has_half && deep > 2 * with_half && deep * largest_dot > 1) break;
 
     content = with;
@@ -118,14 +192,16 @@ MotionView::Content MotionView::without_the_leaving(const Frustum& frustum, size
 
 /// Where a fixed thing is while bodies are shown, where it goes farthest.
 vector<Vec3> MotionView::places_of(Entity fixed) const {
-  if (!world_.moves(fixed)) return {fixed_position(world_, fixed, {start_, 0})};
+  const World& world = samples_.world();
+  const double start = samples_.time(0), end = samples_.time(samples_.instants() - 1);
+  if (!world.moves(fixed)) return {fixed_position(world, fixed, {start, 0})};
   vector<Vec3> places;
-  for (const double time : farthest_times(world_.motion(fixed), start_, time_))
-    places.push_back(fixed_position(world_, fixed, {time, 0}));
+  for (const double time : farthest_times(world.motion(fixed), start, end))
+    places.push_back(fixed_position(world, fixed, {time, 0}));
   return places;
 }
 
-void MotionView::add_surroundings(Content& content) const {
+void MotionView::add_surroundings(Content& content, const Frustum& frustum) const {
   const World& world = scene_.world;
   const Extent bodies = content.bodies;
   const double size = (bodies.high - bodies.low).norm();
@@ -134,12 +210,12 @@ void MotionView::add_surroundings(Content& content) const {
   Entity fixed = world.body_count();
   for (size_t i = 0; i < world.planes.size(); ++i) {
     const Plane& plane = world.planes[i];
-    const bool is_floor = plane.normal.dot(directions_[0].up()) > 0.5;
+    const bool is_floor = plane.normal.dot(frustum.up()) > 0.5;
 
     for (const Vec3& point : places_of(fixed++)) {
       const double above = plane.normal.dot(bodies.middle() - point);
       if (is_drawn(scene_, i) && is_floor && above > 0 && above < 3 * size)
-        add(content, bodies.middle() - above * plane.normal, {});
+        add(content, frustum, bodies.middle() - above * plane.normal, {});
     }
   }
 
@@ -155,7 +231,7 @@ void MotionView::add_surroundings(Content& content) const {
     if (!meet(box, content.near)) continue;
 
     for (const Vec3& center : places)
-      for (const Vec3& corner : corners(wall, center)) add(content, corner, {});
+      for (const Vec3& corner : corners(wall, center)) add(content, frustum, corner, {});
   }
 
   for (size_t i = 0; i < world.obstacles.size(); ++i) {
@@ -167,37 +243,76 @@ void MotionView::add_surroundings(Content& content) const {
     Extent box;
     for (const Vec3& center : places) box.include(center, obstacle.volume.half);
     if (!meet(box, content.near)) continue;
-    for (const Vec3& center : places) add(content, center, obstacle.volume);
+    for (const Vec3& center : places) add(content, frustum, center, obstacle.volume);
   }
 
-  // Anchors of strings.
-  const vector<size_t>& hidden = scene_.overlay.hidden_strings;
-  for (size_t k = 0; k < world.strings.size(); ++k) {
-    const String& string = world.strings[k];
-    if (string.other == no_entity && !std::binary_search(hidden.begin(), hidden.end(), k))
-      add(content, string.anchor, {});
-  }
-
+  for (const Vec3& anchor : anchors_) add(content, frustum, anchor, {});
   content.bodies = bodies;
 }
 
-void MotionView::add_fixed_things(Content& content) const {
-  for (const Plane& plane : scene_.world.planes) add(content, plane.point, {});
+void MotionView::add_fixed_things(Content& content, const Frustum& frustum) const {
+  for (const Plane& plane : scene_.world.planes) add(content, frustum, plane.point, {});
   for (const Wall& wall : scene_.world.walls)
-    for (const Vec3& corner : corners(wall, wall.center)) add(content, corner, {});
-  for (const Obstacle& obstacle : scene_.world.obstacles) add(content, obstacle.center, obstacle.volume);
-  if (content.empty()) add(content, Vec3::Zero(), {});
+    for (const Vec3& corner : corners(wall, wall.center)) add(content, frustum, corner, {});
+  for (const Obstacle& obstacle : scene_.world.obstacles) add(content, frustum, obstacle.center, obstacle.volume);
+  if (content.empty()) add(content, frustum, Vec3::Zero(), {});
 }
 
-MotionView::Content MotionView::content(size_t direction) const {
-  Content content;
-  if (departures_.empty()) {
-    add_fixed_things(content);
-  } else {
-    content = without_the_leaving(directions_[direction], direction);
-    add_surroundings(content);
+/// The things that the scene names, and nothing else.
+void MotionView::add_named_things(Content& content, const Frustum& frustum) const {
+  const World& world = scene_.world;
+  for (const Entity e : scene_.camera->fit_on) {
+    if (world.is_body(e)) continue;
+    for (const Vec3& place : places_of(e)) {
+      if (world.is_plane(e)) add(content, frustum, place, {});
+      if (world.is_obstacle(e)) add(content, frustum, place, world.obstacle(e).volume);
+      if (!world.is_wall(e)) continue;
+      for (const Vec3& corner : corners(world.wall(e), place)) add(content, frustum, corner, {});
+    }
   }
+}
+
+MotionView::Content MotionView::content(const Frustum& frustum, size_t scope) const {
+  Content content;
+  if (samples_.instants() == 0 || scene_.world.body_count() == 0) {
+    add_fixed_things(content, frustum);
+    return content;
+  }
+
+  if (scope == whole) {
+    content = without_the_leaving(frustum);
+  } else {
+    for (size_t k = 0; k < samples_.instants(); ++k)
+      for (size_t i = 0; i < samples_.bodies().size(); ++i)
+        if (is_in(scope, k, i)) add(content, frustum, k, i);
+  }
+
+  if (is_of_some_)
+    add_named_things(content, frustum);
+  else
+    add_surroundings(content, frustum);
   return content;
+}
+
+vector<MotionView::Moment> MotionView::moments(const Frustum& frustum, size_t scope) const {
+  vector<Moment> moments(samples_.instants());
+  for (size_t k = 0; k < moments.size(); ++k) {
+    Moment& moment = moments[k];
+    Extent extent;
+
+    for (size_t i = 0; i < samples_.bodies().size(); ++i) {
+      if (!is_in(scope, k, i) || !samples_.is_there(k, i)) continue;
+      const Vec3& center = samples_.center(k, i);
+      const double radius = samples_.volume(k, i).reach();
+      frustum.add(moment.reach, center, max(min(room_alongside * radius, room_), radius));
+      extent.include(center);
+    }
+
+    if (moment.reach.empty()) continue;
+    moment.middle = extent.middle();
+    for (const Vec3& anchor : anchors_) frustum.add(moment.reach, anchor, 0);
+  }
+  return moments;
 }
 
 }  // namespace carom

@@ -1,67 +1,89 @@
 #pragma once
 // What a view of a motion is to hold.
 
-#include "physics/state.h"
-#include "physics/world_now.h"
 #include "render/frustum.h"
 #include "render/model.h"
+#include "render/motion_samples.h"
 #include "scene/scene.h"
 #include "std.h"
 
 namespace carom {
 
-/// A motion as it is collected, instant by instant, for a view in one of two directions. The view is to hold:
+/// What happens in a motion is its collisions. A view may hold these with the bodies that take part for some time
+/// before and after, or the whole motion, which is:
 ///
 /// All bodies at all instants, unless they fly away for ever. A body flies away from the instant on after which its
 /// distance from the middle of all bodies at the first instant only grows. At least half of the bodies stay in view to
 /// the end, those that get least far. So does each of the others, unless the view would become more than twice as wide
 /// as with that half alone, and half of the bodies lower than a hundredth of it.
 ///
-/// Walls and obstacles that bodies meet or pass, unless they are larger than the motion. Of larger ones, and of planes,
-/// the part at the bodies. Of a floor below, the point under the motion's middle, unless that is farther away than
-/// three times the size of the motion. The points that visible strings hang from.
+/// Besides, walls and obstacles that bodies meet or pass, unless they are larger than the motion. Of larger ones, and
+/// of planes, the part at the bodies. Of a floor below, the point under the motion's middle, unless that is farther
+/// away than three times the size of the motion. The points that visible strings and springs hang from.
 class MotionView {
  public:
   struct Content {
-    array<Frustum::Reach, 2> reach;  // by direction
-    Extent bodies;                   // or without them all
-    Extent near;                     // around all that the bodies met or passed within their own size
-    bool empty() const { return reach[0].empty(); }
+    Frustum::Reach reach;
+    Extent bodies;  // or without them all
+    Extent near;    // around all that the bodies met or passed within their own size
+    bool empty() const { return reach.empty(); }
     void add(const Content& other);
   };
 
-  /// `scene` must outlive this object.
-  MotionView(const Scene& scene, const array<Frustum, 2>& directions)
-      : scene_(scene), known_(scene.world), world_(known_.at({})), directions_(directions) {}
+  /// The scope of a view: the bodies in a time about their collisions. The last one is the whole motion.
+  static constexpr array<double, 6> windows = {0.25, 0.5, 1, 2, 4, infinity};  // s of film before a collision
+  static constexpr size_t whole = windows.size() - 1;
 
-  /// Takes the next instant in order.
-  void add(const State& state);
-  /// For the view in one of the directions. Without bodies, the fixed things.
-  Content content(size_t direction) const;
+  /// `pace`: seconds of motion a second of film. `share`: what happens is the hardest collisions, which together have
+  /// so much of all impulses. All must outlive this object.
+  MotionView(const Scene& scene, const MotionSamples& samples, double pace, double share = 1);
 
-  const Frustum& direction(size_t i) const { return directions_[i]; }
+  /// Whether nothing collides. All motion then counts as what happens.
+  bool is_quiet() const { return quiet_; }
+  /// Without bodies, the fixed things.
+  Content content(const Frustum& frustum, size_t scope) const;
+
+  /// What a camera that goes along is to hold at an instant.
+  struct Moment {
+    Frustum::Reach reach;        // empty: nothing happens
+    Vec3 middle = Vec3::Zero();  // m, of the bodies
+  };
+  /// By instant, with room around each body.
+  vector<Moment> moments(const Frustum& frustum, size_t scope) const;
+
+  /// A body as it collides.
+  struct Strike {
+    size_t instant, body;  // numbers in the samples
+  };
+  const vector<Strike>& strikes() const { return strikes_; }
+  const MotionSamples& samples() const { return samples_; }
+  const Scene& scene() const { return scene_; }
+  /// Whether a body is in scope at an instant.
+  bool is_in(size_t scope, size_t instant, size_t i) const {
+    return scope_[instant * samples_.bodies().size() + i] <= scope;
+  }
 
  private:
-  /// A body since the last instant at which it came no farther.
-  struct Departure {
-    Content content;
-    double distance2 = -1;  // m^2, from the middle, at the previous instant; negative: there was none
-  };
-
-  void add(Content& content, const Vec3& position, const Volume& volume) const;
-  Content without_the_leaving(const Frustum& frustum, size_t direction) const;
-  void add_surroundings(Content& content) const;
+  double least_impulse(double share) const;
+  void find_scopes(double pace, double least);
+  void find_departures();
+  void add(Content& content, const Frustum& frustum, const Vec3& center, const Volume& volume) const;
+  void add(Content& content, const Frustum& frustum, size_t instant, size_t i) const;
+  Content without_the_leaving(const Frustum& frustum) const;
+  void add_surroundings(Content& content, const Frustum& frustum) const;
   vector<Vec3> places_of(Entity fixed) const;
-  void add_fixed_things(Content& content) const;
+  void add_fixed_things(Content& content, const Frustum& frustum) const;
+  void add_named_things(Content& content, const Frustum& frustum) const;
 
   const Scene& scene_;
-  WorldNow known_;
-  const World& world_;  // with the times that events have set
-  array<Frustum, 2> directions_;
-  Vec3 middle_ = Vec3::Zero();    // m, of all bodies at the first instant
-  double start_ = 0, time_ = 0;   // s, of the first and of the previous instant
-  Content core_;                  // all but the departures
-  vector<Departure> departures_;  // by body; empty before the first instant
+  const MotionSamples& samples_;
+  vector<uint8_t> scope_;     // the least that has it, by instant and body
+  vector<size_t> departure_;  // by body: the first instant from which on it only goes farther
+  vector<Strike> strikes_;    // if nothing collides, all bodies at all instants
+  vector<Vec3> anchors_;      // m
+  bool quiet_ = false;
+  bool is_of_some_;  // the scene names what to frame
+  double room_ = 0;  // m, around a body
 };
 
 }  // namespace carom

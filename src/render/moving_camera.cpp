@@ -6,6 +6,7 @@
 #include "physics/center_of_mass.h"
 #include "render/camera_fit.h"
 #include "render/frustum.h"
+#include "render/parallel.h"
 
 namespace carom {
 namespace {
@@ -30,11 +31,19 @@ void find_eye(Camera& camera, const Scene& scene, const Followed& followed, Size
 MovingCamera::MovingCamera(const Scene& scene, Size size) : scene_(scene), size_(size) {
   if (!scene.camera) return;
   camera_ = *scene.camera;
+  orbit_ = scene.camera->orbit;
   if (!scene.camera->path.empty()) path_.emplace(scene.camera->path);
   followed_ = scene.camera->follow;
   if (!followed_) return;
   center_ = center_of_mass(scene.world, followed_->first, followed_->count, scene.initial.position);
   if (!followed_->has_eye) find_eye(camera_, scene, *followed_, size);
+}
+
+void MovingCamera::frame(CameraViews views) {
+  camera_ = views.camera;
+  path_.reset();
+  if (!views.path.empty()) path_.emplace(views.path);
+  faded_ = std::move(views.faded);
 }
 
 Camera MovingCamera::at(const State& state) const {
@@ -53,7 +62,10 @@ Camera MovingCamera::at(const State& state) const {
     camera.target += way;
   }
 
-  return camera;
+  if (orbit_ > 0) camera = turned(camera, 360 * state.time / orbit_);
+  // A framed motion has been seen from afar.
+  const bool parallel = scene_.camera && scene_.camera->orthographic && !frames_motion();
+  return parallel ? from_afar(camera) : camera;
 }
 
 Camera camera_of(const Scene& scene) {
@@ -61,7 +73,7 @@ Camera camera_of(const Scene& scene) {
   if (camera.frames_motion()) {
     CameraFit fit(scene, camera.size());
     fit.add(scene.initial);
-    camera.frame(fit.camera());
+    camera.frame(fit.views());
   }
   return camera.at(scene.initial);
 }

@@ -4,6 +4,7 @@
 #include "physics/state.h"
 #include "render/camera.h"
 #include "render/camera_path.h"
+#include "render/camera_views.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -18,17 +19,21 @@ class MovingCamera {
   const Scene& scene() const { return scene_; }
   Size size() const { return size_; }
   bool frames_motion() const { return carom::frames_motion(scene_); }
-  bool stands_still() const { return !path_ && !followed_; }
+  bool stands_still() const { return !path_ && !followed_ && orbit_ == 0; }
 
-  /// Takes the camera that frames the motion.
-  void frame(const Camera& fitted) { camera_ = fitted; }
-  /// The camera at the state's time.
+  /// Takes the views that frame the motion.
+  void frame(CameraViews views);
+  /// The walls and obstacles to be faded (CameraViews).
+  const vector<uint32_t>& faded() const { return faded_; }
+  /// The camera at the state's time. A parallel projection is seen from afar (parallel.h).
   Camera at(const State& state) const;
 
  private:
   const Scene& scene_;
   Size size_;
-  Camera camera_;  // at time 0
+  Camera camera_;     // at time 0
+  double orbit_ = 0;  // s, of a round; 0: it makes none
+  vector<uint32_t> faded_;
   optional<CameraPath> path_;
   optional<Followed> followed_;
   Vec3 center_ = Vec3::Zero();  // m, of the followed bodies at time 0

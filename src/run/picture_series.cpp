@@ -36,7 +36,9 @@ void PictureSeries::aim(optional<double> picture) {
 const Image& PictureSeries::draw(const State& state) {
   if (!renderer_) renderer_ = make_unique<Renderer>(scene_, stream_.size, stream_.samples);
   if (!maker_) maker_.emplace(scene_, history_, stream_.size, stream_.clock);
-  return renderer_->draw(state, maker_->at(state, camera_.at(state)));
+  Drawing drawing = maker_->at(state, camera_.at(state));
+  drawing.faded = camera_.faded();
+  return renderer_->draw(state, std::move(drawing));
 }
 
 void PictureSeries::expose(const State& state) {

@@ -1,6 +1,5 @@
-// Positions at the instants of pictures are all that the pictures show, so that the way between them needs no search
-// for extremes. The instants are those that the scene requests, whatever --only leaves: the same picture is the same in
-// each run of a scene.
+// The window of time is that of the pictures that the scene requests, whatever --only leaves: the same picture is the
+// same in each run of a scene. The instants do not depend on how many pictures there are.
 #include "run/survey.h"
 
 #include "export/picture_streams.h"
@@ -10,8 +9,35 @@
 namespace carom {
 namespace {
 
+/// The time that a sheet alone is taken to last as a film.
+constexpr double seconds_of_few = 10;
+
 double duration_of(span<MovingCamera* const> cameras) {
   return cameras.empty() ? 0 : cameras.front()->scene().simulate.duration;
+}
+
+/// The part of a motion that pictures show.
+struct ShownTime {
+  double from = infinity, until = 0;  // s
+  double pace = 1;                    // seconds of motion a second of film
+};
+
+ShownTime shown_time(const Scene& scene) {
+  ShownTime shown;
+  for (const Ticks& ticks : shown_instants(scene)) {
+    if (ticks.count() < 1) continue;
+    shown.from = min(shown.from, ticks.at(ticks.first()));
+    shown.until = max(shown.until, ticks.at(ticks.last()));
+  }
+  shown.from = min(shown.from, shown.until);
+
+  const Output& output = scene.requested.pictures() ? scene.requested : scene.output;
+  if (output.video)
+    shown.pace = output.video->speed;
+  else if (shown.from < shown.until && !output.frames)
+    // Few pictures are looked at for some time.
+    shown.pace = (shown.until - shown.from) / seconds_of_few;
+  return shown;
 }
 
 }  // namespace
@@ -19,11 +45,18 @@ double duration_of(span<MovingCamera* const> cameras) {
 Framing::Framing(span<MovingCamera* const> cameras) : timeline_(duration_of(cameras)) {
   for (MovingCamera* camera : cameras) {
     if (!camera->frames_motion()) continue;
-    Framed& framed = framed_.emplace_back(Framed{camera, CameraFit(camera->scene(), camera->size()), {}});
-    for (const Ticks& ticks : shown_instants(camera->scene())) {
-      framed.streams.push_back(timeline_.add(ticks));
-      if (ticks.count() > 0) end_ = max(end_, ticks.at(ticks.last()));
+    const Scene& scene = camera->scene();
+    const auto same = ranges::find(framed_, &scene, &Framed::scene);
+    if (same != framed_.end()) {
+      same->cameras.push_back(camera);
+      continue;
     }
+
+    const ShownTime shown = shown_time(scene);
+    const int64_t count = shown.from < shown.until ? worthwhile_instants(scene.world.body_count()) : 1;
+    const int stream = timeline_.add(Ticks::even(count, shown.from, shown.until));
+    framed_.push_back({&scene, MotionSamples(scene), stream, {camera}});
+    end_ = max(end_, shown.until);
   }
   if (any()) advance();
 }
@@ -32,16 +65,20 @@ void Framing::advance() {
   more_ = timeline_.advance() && timeline_.time() <= end_;
 }
 
+void Framing::record(const Simulator& simulator) {
+  for (Framed& framed : framed_) framed.samples.strike(simulator.collisions());
+}
+
 void Framing::sample(Simulator& simulator) {
-  for (Framed& framed : framed_) {
-    const auto is_due = [&](int stream) { return timeline_.due(stream).has_value(); };
-    if (any_of(framed.streams, is_due)) framed.fit.add(simulator.state());
-  }
+  for (Framed& framed : framed_)
+    if (timeline_.due(framed.stream)) framed.samples.add(simulator.state());
   advance();
 }
 
 void Framing::finish() {
-  for (Framed& framed : framed_) framed.camera->frame(framed.fit.camera());
+  for (Framed& framed : framed_)
+    for (MovingCamera* const camera : framed.cameras)
+      camera->frame(frame_views(*framed.scene, framed.samples, camera->size(), shown_time(*framed.scene).pace));
 }
 
 Charting::Charting(span<FilmChart* const> charts)

@@ -10,7 +10,8 @@
 
 namespace carom {
 
-/// Collects a motion at the instants that each camera's scene shows. Cameras of another kind are left as they are.
+/// Collects a motion at evenly spaced instants of the time that each camera's scene shows, and its collisions. Cameras
+/// of another kind are left as they are.
 class Framing final : public MotionSink {
  public:
   /// All scenes have the motion. The cameras must outlive this object.
@@ -22,16 +23,17 @@ class Framing final : public MotionSink {
 
   bool more() const override { return more_; }
   double time() override { return timeline_.time(); }
-  void record(const Simulator&) override {}
+  void record(const Simulator& simulator) override;
   void sample(Simulator& simulator) override;
   void end_at(double time) override { timeline_.end_at(time); }
 
  private:
-  /// One camera in the making.
+  /// The cameras of one scene, which all go by the same instants.
   struct Framed {
-    MovingCamera* camera;
-    CameraFit fit;
-    vector<int> streams;  // of the timeline
+    const Scene* scene;
+    MotionSamples samples;
+    int stream;  // of the timeline
+    vector<MovingCamera*> cameras;
   };
   void advance();
 

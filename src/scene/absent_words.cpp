@@ -64,12 +64,13 @@ constexpr AbsentWord all_words[] = {
      "The coefficient of restitution does not depend on the speed, on purpose: impacts take no time, and each pair has "
      "one number. Slow impacts under load end in rest, by `rest_speed`.",
      "restitution|pair|rest_speed"},
-    {"camera path|camera motion|fly through|flythrough|tracking shot|keyframes|dolly|orbit camera|zoom",
-     "`camera.path` moves the camera through keyframes, and `camera.follow` takes it along with a body. "
-     "`carom render` draws other views of a run without simulating again.",
-     "camera.path|camera.follow"},
+    {"camera path|camera motion|fly through|flythrough|tracking shot|keyframes|dolly|orbit camera|turntable|zoom",
+     "`camera.path` moves the camera through keyframes, `camera.follow` takes it along with a body, and `camera.orbit` "
+     "goes round. `carom render` draws other views of a run without simulating again.",
+     "camera.path|camera.follow|camera.orbit"},
     {"auto camera|autofit|framing|bounding view|zoom to fit|default camera",
-     "Without a camera, or with `fit: motion`, the camera frames where the bodies go.", "camera.fit"},
+     "Without a camera, or with `fit: motion`, the camera frames what happens, and moves along if need be.",
+     "camera.fit"},
     {"loop|for|foreach|array|instances|copies|clone|duplicate|grid of bodies|row of bodies",
      "A thing with `repeat` stands for many: `repeat: 7` makes seven, and expressions place each by its index i. Many "
      "balls placed by rule are a group; many runs with other values are a sweep.",
@@ -198,8 +199,7 @@ constexpr AbsentWord all_words[] = {
      "momentum at time 0.",
      "output.energy|arrows|impulse"},
     {"orthographic|orthographic projection|orthogonal|parallel projection|isometric|projection|perspective|ortho",
-     "Pictures are in perspective. A distant `eye` with a small `fov` comes close to a parallel projection.",
-     "camera.eye|camera.fov"},
+     "`projection: orthographic` in `camera` is a parallel projection.", "camera.eye|camera.fov"},
     {"python|script|scripting|lua|javascript|plugin|api|library|code|callback|hook",
      "A scene is data and runs no code. `let`, expressions and `repeat` make its numbers, a sweep varies them, and "
      "tables are CSV for any program.",

@@ -73,7 +73,11 @@ class CameraDecoder {
 
   void run() {
     const Node* path = view_.given("path");
+    plan_.orthographic = keys_.orthographic;
+    if (keys_.orbit) plan_.orbit = keys_.orbit->period;
     plan_.fit = keys_.fit.has_value();
+    if (plan_.fit && keys_.fit->on != nullptr) fit_on(*keys_.fit->on);
+
     if (keys_.follow != nullptr) {
       follow(*keys_.follow);
     } else if (path != nullptr && path->is_sequence()) {
@@ -87,6 +91,29 @@ class CameraDecoder {
   }
 
  private:
+  void fit_on(const Node& names) {
+    if (names.bad) return;
+    for (const Node& name : names.items) {
+      const auto range = find_range(name, inventory_, Sought::anything, diagnostics_);
+      if (!range || !inventory_.fits) continue;
+
+      const World& world = scene_.world;
+      const bool is_string = diagnostics_.empty() && range->first >= world.body_count() + world.fixed_count();
+      if (range->count == 0 || is_string) {
+        diagnostics_.add(name.place,
+                         fmt::format("{} {}: there is nothing to frame", in_backticks(name.text),
+                                     is_string ? fmt::format("is {}", inventory_.word_for(*range)) : "has no members"),
+                         "expected balls, bodies, groups, members (gas.3) or fixed things");
+        continue;
+      }
+
+      for (Entity i = 0; i < range->count; ++i) plan_.fit_on.push_back(range->first + i);
+    }
+
+    ranges::sort(plan_.fit_on);
+    plan_.fit_on.erase(std::unique(plan_.fit_on.begin(), plan_.fit_on.end()), plan_.fit_on.end());
+  }
+
   void follow(const Node& name) {
     const auto range = find_range(name, inventory_, Sought::bodies, diagnostics_);
     if (!range || !inventory_.fits) return;

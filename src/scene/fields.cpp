@@ -343,9 +343,20 @@ constexpr Field camera_fields[] = {
     row<CameraKeys, &CameraKeys::fov_horizontal>("fov_axis", "Axis along which fov is measured.", "horizontal", {.type = Type::choice, .of = "vertical|horizontal", .title = "Axis of the field of view"}),
     row<CameraKeys, &CameraKeys::near>("near", "Nothing nearer is drawn.", "1", {.unit = "m", .range = above_0, .one_of = "near|fit", .spared_by = "path", .title = "Near limit", .with = "eye"}),
     row<CameraKeys, &CameraKeys::far>("far", "Nothing farther is drawn.", "100", {.unit = "m", .range = above_0, .one_of = "far|fit", .spared_by = "path", .title = "Far limit", .with = "eye"}),
-    row<CameraKeys, &CameraKeys::fit>("fit", "Frames where the bodies go during the time shown, with the walls and obstacles that they meet, and the points that strings hang from.", "motion", {.of = "motion", .one_of = "fit|follow|path|eye|target|near|far", .title = "Framing"}),
+    row_if_given<CameraKeys, &CameraKeys::fit>("fit", "Frames what happens: the collisions, what goes into them and comes out of them, and the points that strings and springs hang from. `motion`, or the bodies to frame.", "motion", {.of = "fit", .one_of = "fit|follow|path|eye|target|near|far", .plain = "to"}),
     row<CameraKeys, &CameraKeys::follow>("follow", "A ball, body, group or member (gas.3): eye and target go with its centre of mass. Default of target: that centre; of eye: a view from the front, slightly from above.", "red", {.type = Type::name, .one_of = "follow|fit|path", .title = "Followed bodies", .pattern = reference}),
-    row("path", "Views at times in order; the camera moves smoothly from one to the next.", "[{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 2, eye: [5, 3, 0], target: [0, 0, 0]}]", {.type = Type::list, .of = "keyframe", .one_of = "path|fit|follow|eye|target"}),
+    row("path", "Views at times in order; the camera moves smoothly from one to the next.", "[{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 2, eye: [5, 3, 0], target: [0, 0, 0]}]", {.type = Type::list, .of = "keyframe", .one_of = "path|fit|follow|eye|target|orbit"}),
+    row_if_given<CameraKeys, &CameraKeys::orbit>("orbit", "Goes round its target, about `up`, counterclockwise as seen from above.", "{period: 20}", {.of = "orbit", .one_of = "orbit|path"}),
+    row<CameraKeys, &CameraKeys::orthographic>("projection", "A parallel projection has no vanishing points. Its picture is as high as in perspective at the target.", "orthographic", {.type = Type::choice, .of = "perspective|orthographic", .title = "Projection"}),
+};
+
+constexpr Field fit_fields[] = {
+    row<FitKeys, &FitKeys::to>("to", "The motion of all bodies, or of those of `on`.", "motion", {.of = "motion", .title = "Framed motion"}),
+    row<FitKeys, &FitKeys::on>("on", "Names of balls, bodies, groups, members (gas.3) or fixed things: the picture frames these alone. Default: all bodies.", "[red, blue]", {.type = Type::names, .title = "Framed things", .pattern = reference}),
+};
+
+constexpr Field orbit_fields[] = {
+    row<OrbitKeys, &OrbitKeys::period>("period", "Time of one round.", "20", {.unit = "s", .range = above_0, .needed = true, .title = "Period"}),
 };
 
 constexpr Field keyframe_fields[] = {
@@ -428,6 +439,8 @@ constexpr Kind kinds_of_scenes[] = {
     {"contact", "", "What happens where bodies meet.", contact_fields},
     {"stop", "a", "A condition that ends the run.", stop_fields, nullptr, "", "", "", true},
     {"camera", "", "Camera of the pictures.", camera_fields},
+    {"fit", "", "What the camera frames.", fit_fields},
+    {"orbit", "", "A round of the camera.", orbit_fields},
     {"keyframe", "a", "A view at a time.", keyframe_fields, nullptr, "", "", "", true},
     {"light", "a", "A light.", light_fields, &ambient},
     {"coloring", "", "Colours of bodies by a quantity, with a legend in the picture.", coloring_fields},

@@ -269,10 +269,21 @@ struct LabelKeys {
 
 enum class FitTo : uint8_t { motion };
 
+struct FitKeys {
+  FitTo to = FitTo::motion;
+  const Node* on = nullptr;  // names; null: all
+};
+
+struct OrbitKeys {
+  double period = 0;  // s
+};
+
 /// Eye and target may be missing, depending on the keys here.
 struct CameraKeys : Camera {
-  optional<FitTo> fit;
+  optional<FitKeys> fit;
   const Node* follow = nullptr;  // a name
+  optional<OrbitKeys> orbit;
+  bool orthographic = false;
 };
 
 struct KeyframeKeys {

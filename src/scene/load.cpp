@@ -13,6 +13,7 @@
 #include "scene/expressions.h"
 #include "scene/fields.h"
 #include "scene/hollow.h"
+#include "scene/member.h"
 #include "scene/resolve.h"
 #include "scene/scene.h"
 #include "scene/settings.h"

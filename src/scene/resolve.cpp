@@ -255,7 +255,10 @@ class Resolver {
     Overrides overrides;
     // Near and far follow from the bodies' size, as the eye does.
     if (const auto& follow = scene_.camera->follow; follow && !follow->has_eye) overrides = {{"near", ""}, {"far", ""}};
-    line("camera", flow(scene_part(root_, "camera"), overrides));
+    const View view = scene_part(root_, "camera");
+    for (const char* const part : {"fit", "orbit"})
+      if (view.given(part) != nullptr) overrides[part] = flow(view.part(part));
+    line("camera", flow(view, overrides));
   }
 
   void look() {

@@ -51,7 +51,8 @@ bool colors_by_collisions(const Scene& scene) {
 bool drawings_show_collisions(const Scene& scene) {
   const Overlay& overlay = scene.overlay;
   const bool sampled_trails = overlay.trails && !goes_along_parabolas(scene.world, scene.simulate);
-  return overlay.flash || sampled_trails || slows_down(scene) || sounds(scene) || colors_by_collisions(scene) ||
+  return frames_motion(scene) || overlay.flash || sampled_trails || slows_down(scene) || sounds(scene) ||
+         colors_by_collisions(scene) ||
          has_name(overlay.caption, "collisions") || ((scene.output.plots || scene.requested.plots) && may_stop(scene));
 }
 

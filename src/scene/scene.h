@@ -127,6 +127,12 @@ struct CameraPlan : Camera {
 
   /// It frames the motion. Eye, target, near and far come from that.
   bool fit = false;
+  /// Of a camera that frames the motion: these bodies and fixed things alone, ascending. Empty: all.
+  vector<Entity> fit_on;
+  /// s: it goes round its target once in this time, about `up`, counterclockwise from above. 0: it does not.
+  double orbit = 0;
+  /// A parallel projection, as from far away. The picture is as high as in perspective at the target.
+  bool orthographic = false;
   /// Eye and target are those of time 0, and go with these bodies.
   optional<Followed> follow;
   /// Eye, target and fov come from these. Ascending in time.
@@ -225,8 +231,8 @@ inline FilmClock clock_of(const Scene& scene, const VideoOutput& video) {
 
 /// Whether bodies are coloured by the number of their collisions.
 bool colors_by_collisions(const Scene& scene);
-/// Whether drawings of the motion depend on collisions and not only on paths: any picture of the scene, or charts of a
-/// run that may end early.
+/// Whether drawings of the motion depend on collisions and not only on paths: any picture of the scene, its camera, or
+/// charts of a run that may end early.
 bool drawings_show_collisions(const Scene& scene);
 
 }  // namespace carom

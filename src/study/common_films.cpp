@@ -48,13 +48,39 @@ bool is_replayed(const Redrawn& run) {
                                                     : run.former.has_flights();
 }
 
+Size picture_of(const Redrawn& run) {
+  return layout_of(*run.scene.output.video).picture;
+}
+
 /// The camera that frames the run's motion.
-Camera fitted(const Redrawn& run, const function<void()>& stop_check) {
-  MovingCamera camera(run.scene, layout_of(*run.scene.output.video).picture);
+MovingCamera fitted(const Redrawn& run, const function<void()>& stop_check) {
+  MovingCamera camera(run.scene, picture_of(run));
   MovingCamera* const cameras[] = {&camera};
   const auto motion = run.former.has_flights() ? run.former.replay(run.scene) : make_simulator(run.scene);
   survey(cameras, *motion, stop_check);
-  return camera.at(run.scene.initial);
+  return camera;
+}
+
+/// So many views make the path of a camera that holds others which move.
+constexpr int views_of_path = 64;
+
+/// One camera that has in view what all of them have, at each time up to `end` (s). None: they are one already.
+optional<CameraPlan> common_plan(span<const MovingCamera> cameras, double end) {
+  CameraPlan plan;
+  bool differ = false;
+  for (int i = 0; i <= views_of_path; ++i) {
+    State state;
+    state.time = end * i / views_of_path;
+    vector<Camera> views;
+    for (const MovingCamera& camera : cameras) views.push_back(camera.at(state));
+    differ = differ || any_of(views, [&](const Camera& view) { return view != views.front(); });
+    static_cast<Camera&>(plan) = common_view(views, cameras.front().size());
+    plan.path.push_back({state.time, plan.eye, plan.target, plan.fov});
+  }
+
+  if (!differ) return nullopt;
+  if (all_of(cameras, [](const MovingCamera& camera) { return camera.stands_still(); })) plan.path.clear();
+  return plan;
 }
 
 void draw_film(const Redrawn& run, const string& folder, const function<void()>& stop_check) {
@@ -77,13 +103,17 @@ CommonFilms::CommonFilms(const FilePlace& place, vector<FilmTile>& tiles, const 
     runs.push_back(std::move(*run));
   }
 
-  vector<Camera> cameras;
-  for (const Redrawn& run : runs) cameras.push_back(fitted(run, stop_check));
-  if (all_of(cameras, [&](const Camera& camera) { return camera == cameras.front(); })) return;
-  const Camera common = common_view(cameras, layout_of(*runs.front().scene.output.video).picture);
+  vector<MovingCamera> cameras;
+  double end = 0;
+  for (const Redrawn& run : runs) {
+    cameras.push_back(fitted(run, stop_check));
+    end = max(end, run.scene.simulate.duration);
+  }
+  const optional<CameraPlan> common = common_plan(cameras, end);
+  if (!common) return;
 
   for (size_t i = 0; i < runs.size(); ++i) {
-    runs[i].scene.camera = common;
+    runs[i].scene.camera = *common;
     const string& name = folders_.emplace_back(part_name(fmt::format("film_{}", i)));
     remove_entry(place_, name);
     const string folder = place_.path + "/" + name;

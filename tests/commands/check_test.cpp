@@ -149,6 +149,49 @@ TEST(Check, OfACameraThatMovesWatchesItsOwnPictures) {
   EXPECT_NE(text(path).find("  camera      2 keyframes; +x points"), string::npos);
 }
 
+/// A ball that passes behind a post between 1.4 s and 1.6 s, as seen from (0, 0, 9).
+const string behind_a_post =
+    "scene: 1\ngravity: [0, 0, 0]\n"
+    "balls: {ball: {mass: 1, radius: 0.1, position: [-1.5, 0, 0], velocity: [1, 0, 0]}}\n"
+    "obstacles: {post: {box: [0.2, 3, 0.2], position: [0, 0, 1]}}\n"
+    "simulate: {duration: 3}\n"
+    "output: {frames: {fps: 10, size: [64, 64]}}\n";
+
+TEST(Check, SaysWhatIsHiddenWhenAndBehindWhat) {
+  const Workplace here;
+  here.write("post.yaml", behind_a_post + "camera: {eye: [0, 0, 9], target: [0, 0, 0]}\n");
+  const Json seen = camera_seen(here, "post.yaml");
+  EXPECT_EQ(seen.at("hidings"), 1);
+  const Json& hiding = seen.at("hidings_listed").at(0);
+  EXPECT_EQ(hiding.at("body"), "ball");
+  EXPECT_EQ(hiding.at("behind"), "post");
+  EXPECT_NEAR(hiding.at("from_s").get<double>(), 1.5, 0.11);
+  EXPECT_LE(hiding.at("from_s"), hiding.at("until_s"));
+  EXPECT_NE(here.carom({"check", "post.yaml"}).out.find("  hidden      ball is behind post "), string::npos);
+}
+
+TEST(Check, OfACameraThatFramesTheMotionNothingIsHidden) {
+  const Workplace here;
+  here.write("post.yaml", behind_a_post);
+  const Json seen = camera_seen(here, "post.yaml");
+  EXPECT_EQ(seen.at("hidings"), 0);
+  EXPECT_EQ(seen.at("kind"), "fit");
+  EXPECT_NE(here.carom({"check", "post.yaml"}).out.find("  hidden      no body in the picture"), string::npos);
+}
+
+TEST(Check, NamesTheKindOfCamera) {
+  const Workplace here;
+  here.write("post.yaml", behind_a_post);
+  const auto text = [&](const string& camera) {
+    return here.carom({"check", "post.yaml", "--set", "camera=" + camera}).out;
+  };
+  EXPECT_NE(text("{fit: {on: [ball]}, orbit: {period: 9}}").find("  camera      frames ball; goes round in 9 s; +x"),
+            string::npos);
+  EXPECT_NE(text("{eye: [0, 0, 9], target: [0, 0, 0], fov: 90, projection: orthographic}")
+                .find("parallel projection of 18 x 18 m"),
+            string::npos);
+}
+
 TEST(Check, ReportsBytesAndSecondsToCome) {
   const Workplace here;
   here.write("passing.yaml", passing_ball + "output: {frames: {fps: 10, size: [640, 360]}}\n");

@@ -339,6 +339,24 @@ TEST(Glb, ACameraThatStandsStillHasNone) {
   EXPECT_EQ(json_of(glb(scene, motion))["animations"][0]["channels"].size(), 1U);
 }
 
+TEST(Glb, AParallelProjectionHasTheSizeOfThePictureAndTheEyeOfTheScene) {
+  Scene scene;
+  test::add_ball(scene, Vec3(0, 0, 0), 0.1, test::red);
+  CameraPlan plan(Camera{.eye = Vec3(0, 0, 9), .target = Vec3(0, 0, 0), .fov = 90, .near = 1, .far = 50});
+  plan.orthographic = true;
+  scene.camera = plan;
+
+  const Json gltf = json_of(glb(scene, KeyedMotion{}));
+  const Json& camera = gltf["cameras"][0];
+  EXPECT_EQ(camera["type"], "orthographic");
+  EXPECT_NEAR(camera["orthographic"]["ymag"].get<double>(), 9, 1e-5);
+  EXPECT_NEAR(camera["orthographic"]["xmag"].get<double>(), 16, 1e-5);
+  EXPECT_NEAR(camera["orthographic"]["znear"].get<double>(), 1, 1e-5);
+  EXPECT_NEAR(camera["orthographic"]["zfar"].get<double>(), 50, 1e-4);
+  for (const Json& node : gltf["nodes"])
+    EXPECT_NEAR(node.contains("camera") ? node["translation"][2].get<double>() : 9, 9, 1e-5);
+}
+
 TEST(Glb, ASceneOfNothingIsAnError) {
   EXPECT_THROW(glb(Scene{}, {}), runtime_error);
 }

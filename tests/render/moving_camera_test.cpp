@@ -161,6 +161,42 @@ TEST(CameraOnAPath, LeavesTheLightsWhereTheyWere) {
   }
 }
 
+TEST(CameraThatGoesRound, IsBackAfterItsPeriodAndKeepsItsDistance) {
+  Scene scene = three_balls();
+  CameraPlan plan(Camera{.eye = Vec3(1, 3, 9), .target = Vec3(1, 2, 3)});
+  plan.orbit = 8;
+  scene.camera = plan;
+
+  const MovingCamera camera(scene, size);
+  EXPECT_FALSE(camera.stands_still());
+  State state = scene.initial;
+  EXPECT_EQ(camera.at(state).eye, plan.eye);
+  state.time = 2;  // a quarter: from the front (+z) to the right (+x)
+  EXPECT_LT((camera.at(state).eye - Vec3(7, 3, 3)).norm(), 1e-14);
+  state.time = 8;
+  EXPECT_LT((camera.at(state).eye - plan.eye).norm(), 1e-14);
+  EXPECT_EQ(camera.at(state).target, plan.target);
+}
+
+TEST(ParallelProjection, ShowsThingsAtAnyDepthInOneSize) {
+  Scene scene = three_balls();
+  CameraPlan plan(Camera{.eye = Vec3(0, 0, 9), .target = Vec3(0, 0, 0)});
+  const auto height = [&](const Vec3& from, const Vec3& to) {
+    scene.camera = plan;
+    const Camera camera = MovingCamera(scene, size).at(scene.initial);
+    return (seen(camera, to) - seen(camera, from)).norm();
+  };
+  const double at_target = height(Vec3(0, 0, 0), Vec3(0, 1, 0));
+  EXPECT_GT(height(Vec3(0, 0, 4.5), Vec3(0, 1, 4.5)), 1.9 * at_target);
+
+  plan.orthographic = true;
+  EXPECT_NEAR(height(Vec3(0, 0, 0), Vec3(0, 1, 0)), at_target, 1e-6 * at_target);
+  for (const double z : {-4.5, 4.5})
+    EXPECT_NEAR(height(Vec3(0, 0, z), Vec3(0, 1, z)), at_target, 0.00051 * at_target);  // measured: 0.0005
+  const Camera camera = MovingCamera(scene, size).at(scene.initial);
+  EXPECT_NEAR((camera.eye - camera.target).norm() - camera.near, 9 - plan.near, 1e-9);
+}
+
 TEST(StillCamera, IsTheScenesOwnAtAllTimes) {
   Scene scene = three_balls();
   scene.camera = Camera{.eye = Vec3(0, 1, 9), .target = Vec3(0, 0, 0)};

@@ -61,12 +61,17 @@ TEST(CameraPlan, KeyframesTakeTheCamerasAngle) {
 
 TEST(CameraPlan, ResolvedItIsTheSamePlan) {
   for (const char* camera :
-       {"{fit: motion, fov: 30}", "{follow: red}", "{follow: red, eye: [0, 0, 9], near: 1}",
+       {"{fit: motion, fov: 30}", "{fit: {on: [red, gas.1, floor]}, orbit: {period: 3}}",
+        "{follow: red, projection: orthographic}", "{follow: red}", "{follow: red, eye: [0, 0, 9], near: 1}",
         "{path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}, {at: 1, eye: [0, 3, 4], target: [0, 0, 0]}]}"}) {
     const Scene scene = load_text(bodies + "camera: " + camera + "\n"), again = load_text(scene.resolved);
     EXPECT_EQ(again.resolved, scene.resolved);
     EXPECT_EQ(static_cast<const Camera&>(*again.camera), static_cast<const Camera&>(*scene.camera)) << camera;
+
     EXPECT_EQ(again.camera->fit, scene.camera->fit);
+    EXPECT_EQ(again.camera->fit_on, scene.camera->fit_on);
+    EXPECT_EQ(again.camera->orbit, scene.camera->orbit);
+    EXPECT_EQ(again.camera->orthographic, scene.camera->orthographic);
     EXPECT_EQ(again.camera->follow.has_value(), scene.camera->follow.has_value());
     EXPECT_EQ(again.camera->path.size(), scene.camera->path.size());
   }
@@ -102,10 +107,40 @@ TEST(CameraPlan, ASettingTakesAwayTheKeysThatTheReplacedOnesNeed) {
   EXPECT_EQ(load_text(bodies + path, options).camera->near, 1);
 }
 
+TEST(CameraPlan, FitsNamedThings) {
+  EXPECT_TRUE(plan_of("{fit: motion}").fit_on.empty());
+  const CameraPlan plan = plan_of("{fit: {on: [gas, red, floor]}}");
+  EXPECT_TRUE(plan.fit);
+  EXPECT_EQ(plan.fit_on, (vector<Entity>{0, 2, 3, 4}));
+  EXPECT_EQ(plan_of("{fit: {on: [gas.1, gas]}}").fit_on, (vector<Entity>{2, 3}));
+  EXPECT_EQ(error_of("{fit: {on: [rde]}}"), "nothing is named `rde`");
+  EXPECT_EQ(error_of("{fit: {on: [gas.9]}}"), "the group `gas` has no member `9`");
+  EXPECT_EQ(error_of("{fit: all}"), "`to` is `all`");
+}
+
+TEST(CameraPlan, AStringCannotBeFramed) {
+  const Marked errors =
+      marked_errors(bodies + "strings: {line: {from: [0, 9, 0], to: red}}\n" + "camera: {fit: {on: [line]}}\n");
+  ASSERT_EQ(errors.size(), 1u);
+  EXPECT_EQ(errors[0].second, "`line` is a string: there is nothing to frame");
+}
+
+TEST(CameraPlan, GoesRoundAndProjectsInParallel) {
+  const CameraPlan plan = plan_of("{eye: [0, 1, 9], target: [0, 0, 0], orbit: {period: 8}, projection: orthographic}");
+  EXPECT_EQ(plan.orbit, 8);
+  EXPECT_TRUE(plan.orthographic);
+  EXPECT_EQ(plan_of("{fit: motion}").orbit, 0);
+  EXPECT_FALSE(plan_of("{fit: motion, projection: perspective}").orthographic);
+  EXPECT_EQ(error_of("{fit: motion, orbit: {period: 0}}"), "`period` is 0");
+  EXPECT_EQ(error_of("{fit: motion, orbit: {}}"), "`orbit` has no `period`");
+  EXPECT_EQ(error_of("{fit: motion, projection: flat}"), "`projection` is `flat`");
+}
+
 TEST(CameraErrors, KeysThatDoNotGoTogetherAreRefused) {
   for (const char* camera :
        {"{fit: motion, eye: [0, 1, 9]}", "{fit: motion, target: [0, 1, 9]}", "{fit: motion, near: 1}",
-        "{fit: motion, follow: red}", "{follow: red, path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}]}",
+        "{fit: motion, follow: red}", "{orbit: {period: 1}, path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}]}",
+        "{follow: red, path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}]}",
         "{eye: [0, 0, 1], target: [0, 0, 0], path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}]}"})
     EXPECT_NE(error_of(camera).find("`camera` has both "), string::npos) << camera << error_of(camera);
 }
@@ -114,7 +149,7 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
   EXPECT_EQ(in_parts(errors_of(start + "camera: {fov: 30}\n")),
             (Parts{{"3:1 camera", "`camera` has no `eye` and no `fit` and no `path` and no `follow`",
                     "expected `eye`: [x, y, z], three numbers in m\n"
-                    "or `fit`: motion\n"
+                    "or `fit`: a map of keys, or a value of `to`\n"
                     "or `path`: a list\n"
                     "or `follow`: a name"}}));
   EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), string::npos);

@@ -297,6 +297,13 @@ scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
 planes: {text: {point: [0, 0, 0], normal: [0, 1, 0]}}
 simulate: {duration: 1}
+camera: {fit: {to: motion, on: [red, text]}, orbit: {period: 2}, projection: orthographic}
+)",
+    R"(
+scene: 1
+balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
+planes: {text: {point: [0, 0, 0], normal: [0, 1, 0]}}
+simulate: {duration: 1}
 camera: {follow: red, eye: [0, 3, -5], target: [0, 1, 0], near: 0.5}
 output: {video: {slow: {around: red}}}
 )",

@@ -1,0 +1,145 @@
+// Of every scene without its camera: all that collides is in the picture as it does, large enough, and not hidden.
+#include <gtest/gtest.h>
+
+#include "export/picture_streams.h"
+#include "physics/world.h"
+#include "physics/world_now.h"
+#include "render/eye.h"
+#include "render/moving_camera.h"
+#include "render/sight.h"
+#include "run/engine.h"
+#include "run/motion_sink.h"
+#include "run/survey.h"
+#include "scene/scene.h"
+#include "scenes/play.h"
+#include "slow_with_sanitizers.h"
+#include "std.h"
+
+namespace carom::testing {
+namespace {
+
+constexpr Size size{1280, 720};
+
+/// The bodies of collisions, as the camera sees them.
+struct Seen {
+  size_t all = 0, outside = 0, hidden = 0;
+  double least = 1;  // of the heights of bodies, in that of the picture
+};
+
+class Watching {
+ public:
+  Watching(const Scene& scene, const MovingCamera& camera) : scene_(scene), camera_(camera), sight_(scene) {}
+
+  void see(const State& state, const Collision& collision) {
+    add(state, collision, collision.a, -1);
+    const Entity second = scene_.world.second_body(collision.b);
+    if (second != no_entity) add(state, collision, second, collision.kind == CollisionKind::taut ? 0 : 1);
+  }
+  const Seen& seen() const { return seen_; }
+
+ private:
+  void add(const State& at, const Collision& collision, Entity body, double side) {
+    State state = at;
+    state.time = collision.time;
+    const Camera camera = camera_.at(state);
+    const Eye eye(camera, size);
+    const Volume volume = scene_.world.volume_of(body);
+    if (collision.kind == CollisionKind::taut) return;  // its place is not that of the body
+    const Vec3 center = collision.position + side * volume.support(collision.normal) * collision.normal;
+    const Vec3 place = eye.point(center);
+
+    ++seen_.all;
+    const bool inside = std::abs(place.x()) <= eye.tan_x * place.z() && std::abs(place.y()) <= eye.tan_y * place.z();
+    seen_.outside += !inside;
+    seen_.least = min(seen_.least, volume.half.maxCoeff() / (eye.tan_y * place.z()));
+    vector<Entity> hiders =
+        sight_.hiders(scene_.world, collision.time, camera.eye, eye.view, center, volume.half.maxCoeff());
+    std::erase_if(hiders, [&](Entity e) {
+      return ranges::binary_search(camera_.faded(), uint32_t(e - scene_.world.body_count()));
+    });
+    seen_.hidden += !hiders.empty();
+  }
+
+  const Scene& scene_;
+  const MovingCamera& camera_;
+  const Sight sight_;
+  Seen seen_;
+};
+
+/// Keeps the collisions of the time that pictures show.
+class Keeping final : public MotionSink {
+ public:
+  explicit Keeping(const Scene& scene) {
+    for (const Ticks& ticks : shown_instants(scene)) {
+      from_ = min(from_, ticks.at(ticks.first()));
+      until_ = max(until_, ticks.at(ticks.last()));
+    }
+  }
+  bool more() const override { return more_; }
+  double time() override { return until_; }
+  void record(const Simulator& simulator) override {
+    for (const Collision& c : simulator.collisions())
+      if (c.kind != CollisionKind::rest && c.time >= from_ && c.time <= until_) kept.push_back(c);
+  }
+  void sample(Simulator&) override { more_ = false; }
+  void end_at(double time) override { until_ = time; }
+
+  vector<Collision> kept;
+
+ private:
+  double from_ = infinity, until_ = 0;
+  bool more_ = true;
+};
+
+Seen seen_of(const Scene& scene) {
+  MovingCamera camera(scene, size);
+  MovingCamera* const cameras[] = {&camera};
+  Framing framing(cameras);
+  Keeping keeping(scene);
+  MotionSink* const sinks[] = {&framing, &keeping};
+  const auto simulator = make_simulator(scene, {.collisions = true});
+  carry_through(*simulator, sinks, scene.simulate.duration, unguarded, {.stop_check = [] {}});
+  framing.finish();
+
+  Watching watching(scene, camera);
+  for (size_t i = 0; i < keeping.kept.size(); i += 1 + keeping.kept.size() / 20000)
+    watching.see(simulator->state(), keeping.kept[i]);
+  return watching.seen();
+}
+
+class EverySceneWithoutCamera : public ::testing::TestWithParam<string> {};
+
+/// Scenes of bodies that are tiny beside the space in which they collide, all the time and everywhere.
+constexpr array tiny = {"binary_stars", "effusion", "piston"};
+/// Its simulation takes a minute.
+constexpr array slow = {"funnel"};
+
+bool is_among(span<const char* const> names, const string& name) {
+  return ranges::find(names, name) != names.end();
+}
+
+TEST_P(EverySceneWithoutCamera, ShowsWhatCollides) {
+  SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "pile_at_rest", "binary_stars", "hourglass",
+                       "lattice", "pour_into_bowl", "pi_to_six_digits", "piston", "opening_gate", "shaken_tray");
+  if (is_among(slow, GetParam())) return;
+  Scene scene = load(GetParam());
+  // In the frames of the engine book bodies overlap before they collide.
+  if (scene.simulate.engine == Engine::book) return;
+  scene.camera.reset();
+
+  const Seen seen = seen_of(scene);
+  EXPECT_EQ(seen.outside, 0u);
+  EXPECT_EQ(seen.hidden, 0u);
+  const double least = seen.all == 0 ? 0 : is_among(tiny, GetParam()) ? 0.005 : 0.02;
+  EXPECT_GE(seen.least, least);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EverySceneWithoutCamera, ::testing::ValuesIn(scene_names()),
+                         [](const auto& parameter) {
+                           string name = parameter.param;
+                           std::replace(name.begin(), name.end(), '/', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace carom::testing
