@@ -54,7 +54,6 @@ struct Renderer::Impl {
     }
 
     shot.backdrop.none = scene.transparent;
-    shot.finishes = things.finishes();
     shot.pattern.unit = float(pattern_unit(s, size));
 
     image.width = size.width, image.height = size.height;

@@ -37,6 +37,9 @@ bool reaches(const Volume& volume, const Vec3& d) {
   return in_box;
 }
 
+/// Of a thing that hides what happens.
+constexpr double faded_opacity = 0.25;
+
 }  // namespace
 
 Things::Things(const Scene& scene) : scene_(scene), thickness_(scene) {
@@ -156,7 +159,7 @@ void Things::take_mean(const Look& look, raster::Shot& shot) {
   color = look.size.mean->with(color);
 }
 
-void Things::add_walls(const State& state, const Eye& eye, raster::Shot& shot) const {
+void Things::add_walls(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot) const {
   const World& world = scene_.world;
   for (size_t i = 0; i < world.walls.size(); ++i) {
     const FixedLook& name = look_of_fixed(scene_, world.planes.size() + i);
@@ -184,7 +187,13 @@ void Things::add_walls(const State& state, const Eye& eye, raster::Shot& shot) c
                         std::abs(wall.right.dot(way)) <= wall.half_width &&
                         std::abs(wall.up.dot(way)) <= wall.half_height;
     shot.solids.push_back(solid);
+    fade(drawing, world.planes.size() + i, shot);
   }
+}
+
+/// Lets the last solid be seen through, if it hides what happens.
+void Things::fade(const Drawing& drawing, size_t fixed, raster::Shot& shot) const {
+  if (std::binary_search(drawing.faded.begin(), drawing.faded.end(), fixed)) shot.solids.back().finish = faded_finish_;
 }
 
 void Things::add_halos(const Eye& eye, raster::Shot& shot) const {
@@ -206,6 +215,9 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
   meshes_.clear();
 
   const World& world = scene_.world;
+  faded_finish_ = drawing.faded.empty() ? 0 : finish_of({Finish::plastic, faded_opacity});
+  if (shot.finishes.size() != finishes_.size()) shot.finishes = finishes_;
+
   for (uint32_t i = 0; i < world.body_count(); ++i) {
     if (is_gone(state, i)) continue;
     const Volume volume = volume_now(world, state, i);
@@ -224,15 +236,17 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
     const Vec3& inward = look_of_obstacle(scene_, i).inward;
     if (obstacle.hollow != Hollow::none || !inward.isZero(0)) {
       add_shell(obstacle, inward, looks_[number++], eye, shot);
+      fade(drawing, world.planes.size() + world.walls.size() + i, shot);
       continue;
     }
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[number], looks_[number].mesh.has_value(), eye,
         shot);
     take_mean(looks_[number], shot);
+    fade(drawing, world.planes.size() + world.walls.size() + i, shot);
     ++number;
   }
 
-  add_walls(state, eye, shot);
+  add_walls(state, drawing, eye, shot);
   if (any_of(finishes_, [](const raster::SurfaceLight& light) { return light.emission > 0; })) add_halos(eye, shot);
 }
 

@@ -77,8 +77,6 @@ class Things {
   /// left out, and a joint body has the size of the state.
   void place(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot);
   const vector<PlacedMesh>& meshes() const { return meshes_; }
-  /// How surfaces reflect light, without repetitions. The first is that of plastic.
-  const vector<raster::SurfaceLight>& finishes() const { return finishes_; }
 
  private:
   Look look_of(const Color& color, const optional<MeshUse>& mesh, const Surface& surface);
@@ -88,7 +86,8 @@ class Things {
   void add_shell(const Obstacle& obstacle, const Vec3& inward, const Look& look, const Eye& eye, raster::Shot& shot);
   /// Gives the last solid the mean of its mesh's own colours, for the light that it sends and where it is tiny.
   void take_mean(const Look& look, raster::Shot& shot);
-  void add_walls(const State& state, const Eye& eye, raster::Shot& shot) const;
+  void add_walls(const State& state, const Drawing& drawing, const Eye& eye, raster::Shot& shot) const;
+  void fade(const Drawing& drawing, size_t fixed, raster::Shot& shot) const;
   void add_halos(const Eye& eye, raster::Shot& shot) const;
 
   const Scene& scene_;
@@ -96,8 +95,10 @@ class Things {
   vector<uint32_t> obstacles_;  // those that are visible
   vector<DrawnFile> files_;
   vector<PlacedMesh> meshes_;
+  // How surfaces reflect light, without repetitions. The first is that of plastic.
   vector<raster::SurfaceLight> finishes_ = vector<raster::SurfaceLight>(1);
   vector<uint32_t> wall_finishes_;  // by wall
+  uint32_t faded_finish_ = 0;
   WallThickness thickness_;
 };
 

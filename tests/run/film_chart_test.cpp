@@ -193,7 +193,7 @@ TEST(FilmChart, OfARunThatStopsEndsWithIt) {
   Scene stopped = load_text(falling("energy", ", from: 0.25, until: 0.75"));
   EXPECT_EQ(FilmChart(whole).instants().at(FilmChart(whole).instants().last()), 1);
   EXPECT_EQ(FilmChart(stopped).instants().at(0), 0.25);
-  stopped.ends_at = 0.5;
+  stopped.known.ends_at = 0.5;
   EXPECT_EQ(FilmChart(stopped).instants().at(FilmChart(stopped).instants().last()), 0.5);
 }
 
