@@ -98,7 +98,7 @@ PictureStreams plan_pictures(const Scene& scene) {
     const Ticks ticks = ticks_of(scene, *video, duration);
     if (ticks.count() < 1)
       throw ExportError("cannot make " + video->file + ": no picture falls between `from` and `until`");
-    if (scene.transparent && film_format(video->file) == FilmFormat::mp4)
+    if (scene.background.transparent && film_format(video->file) == FilmFormat::mp4)
       throw ExportError("cannot make " + video->file + ": an MP4 has no transparency, and `background` is `none`; " +
                         "write frames, a .gif or a .webp, or give the background a colour");
 

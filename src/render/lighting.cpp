@@ -32,6 +32,7 @@ raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise) {
       break;
     case Finish::plastic:
       break;
+
     case Finish::metal:
       light = {.matt = 0.15F, .least_mirror = 0.8F, .most_mirror = 0.95F, .glint = 0.9F, .tint = 1};
       break;
@@ -42,6 +43,7 @@ raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise) {
       light = {.matt = 0.2F, .glint = 0, .emission = 1};
       break;
   }
+
   if (surface.opacity) light.opacity = float(*surface.opacity);
   return light;
 }

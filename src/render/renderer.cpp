@@ -46,18 +46,18 @@ struct Renderer::Impl {
         edges(room_edges(scene)) {
     shot.lens.smooth = samples > 1;
     shot.lens.width = size.width, shot.lens.height = size.height;
-    if (scene.background) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background);
+    if (scene.background.color) shot.backdrop.plain = true, shot.backdrop.color = linear(*scene.background.color);
 
     if (!things.files().empty()) {
       meshes.emplace(things.files(), size, shot.lens.smooth);
       things.measure([&](const MeshUse& use, size_t file) { return meshes->size_of(use, file); });
     }
 
-    shot.backdrop.none = scene.transparent;
+    shot.backdrop.none = scene.background.transparent;
     shot.pattern.unit = float(pattern_unit(s, size));
 
     image.width = size.width, image.height = size.height;
-    image.channels = scene.transparent ? 4 : 3;
+    image.channels = scene.background.transparent ? 4 : 3;
     image.pixels.resize(size_t(size.height) * image.row_size());
   }
 

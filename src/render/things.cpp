@@ -38,7 +38,7 @@ bool reaches(const Volume& volume, const Vec3& d) {
 }
 
 /// Of a thing that hides what happens.
-constexpr double faded_opacity = 0.25;
+constexpr double faded_opacity = 0.12;
 
 }  // namespace
 
@@ -239,6 +239,7 @@ void Things::place(const State& state, const Drawing& drawing, const Eye& eye, r
       fade(drawing, world.planes.size() + world.walls.size() + i, shot);
       continue;
     }
+
     add(obstacle.center, obstacle.volume, obstacle.volume.reach(), looks_[number], looks_[number].mesh.has_value(), eye,
         shot);
     take_mean(looks_[number], shot);

@@ -115,7 +115,7 @@ constexpr AbsentWord all_words[] = {
      "contact|restitution"},
     {"collision group|layer|mask|filter|ignore collisions|collision mask",
      "All bodies meet all others. A pair can have a coefficient of restitution of its own.", "pair"},
-    {"material|transparency|transparent|see through|shininess|roughness|reflection|shiny|translucent|emissive",
+    {"material|transparency|transparent|see through|shininess|reflection|shiny|translucent|emissive",
      "Things have a `color`, a `finish` and an `opacity`. `background: none` leaves out the background of pictures.",
      "color|finish|opacity|background"},
     {"texture|texture map|normal map|shader", "A mesh has the textures of its file.", "mesh"},

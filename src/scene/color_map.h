@@ -6,8 +6,8 @@
 
 namespace carom {
 
-/// Each becomes lighter from its start to its end, so that it keeps its order in print without colours. The part that is
-/// too dark to be told from black is left out.
+/// Each becomes lighter from its start to its end, so that it keeps its order in print without colours. The part that
+/// is too dark to be told from black is left out.
 enum class ColorMap : uint8_t { viridis, cividis, magma, plasma, inferno };
 
 // In the order of ColorMap.

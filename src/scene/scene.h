@@ -177,6 +177,11 @@ struct KnownMotion {
   optional<Slowdown> slows_at{};  // the collision around which the film slows down
 };
 
+struct Background {
+  optional<Color> color;     // none: that of the look
+  bool transparent = false;  // there is none
+};
+
 struct Scene {
   string file;  // as given on the command line
   string title;
@@ -189,8 +194,7 @@ struct Scene {
   SceneLook look = SceneLook::studio;
   vector<Light> lights;  // empty: those of the look
   optional<Color> ambient;
-  optional<Color> background;
-  bool transparent = false;  // there is no background
+  Background background;
   Overlay overlay;
   Output output;
   Measures measures;

@@ -318,7 +318,7 @@ TEST(Sheet, OfTransparentPicturesIsTransparentBetweenThem) {
 TEST(Film, OfTransparentPicturesIsNoMp4) {
   TempFolder temp;
   Scene scene = small_scene();
-  scene.transparent = true;
+  scene.background.transparent = true;
   scene.output.video.emplace();
   EXPECT_EQ(error_of([&] { Exports(scene, temp / "run"); }),
             "cannot make animation.mp4: an MP4 has no transparency, and `background` is `none`; write frames, a .gif "

@@ -57,7 +57,7 @@ TEST(Matt, AGreyFloorUnderLightFromAboveHasTheClosedFormsByte) {
 
 TEST(Background, IsTheColourTheSceneNames) {
   Scene scene;
-  scene.background = Color{0.2, 0.4, 0.6};
+  scene.background.color = Color{0.2, 0.4, 0.6};
   Renderer renderer(scene, {16, 16}, 4);
   const uint8_t* p = renderer.draw(scene.initial).row(3);
   EXPECT_EQ(p[0], 51);
@@ -89,7 +89,7 @@ TEST(Shadow, ItsPenumbraGrowsWithTheWayToTheFloor) {
   for (const double height : {2.0, 6.0}) {
     Scene scene = floor_scene(Vec3(0, height, 0));
     scene.ambient = Color{0, 0, 0};
-    scene.background = Color{0, 0, 0};
+    scene.background.color = Color{0, 0, 0};
     scene.lights.push_back({"noon", Vec3(0, -1, 0), {}, {1, 1, 1}, 0.8});
     scene.camera->eye = Vec3(0, 1.2, 6);
 

@@ -48,7 +48,7 @@ double light_at(const Image& image, const test::Point& at, int channel) {
 
 TEST(Walls, HideABallThatTouchesThemFromBehind) {
   Scene scene = even_scene(Vec3(0.4, 0.7, 3));
-  scene.background = black;
+  scene.background.color = black;
   add_wall(scene, Vec3::Zero(), Vec3(0, 0, 1), Vec3(0, 1, 0), 2, 1.5, white);
   add_ball(scene, Vec3(0, 0, -0.3), 0.3, red);
   const Image touching = drawn(scene);
@@ -63,7 +63,7 @@ TEST(Walls, HideABallThatTouchesThemFromBehind) {
 TEST(Walls, InTwoPartsLetNoLightThroughTheirSeam) {
   // The background and the floor behind are white, the walls black: light at the seam would be seen.
   Scene scene = even_scene(Vec3(0.3, 0.6, 3));
-  scene.background = white;
+  scene.background.color = white;
   scene.ambient = black;
   scene.lights[0] = {"sun", Vec3(0.1, -1, -0.7), {}, white, 1};
   add_plane(scene, Vec3(0, -0.5, 0), Vec3(0, 1, 0), white);
@@ -109,13 +109,14 @@ TEST(Walls, AreThickWhereNoBodyIs) {
 
 TEST(Opacity, MixesWhatIsInFrontAndWhatIsBehind) {
   Scene scene = even_scene(Vec3(0, 0, 3));
-  scene.background = Color{0.2, 0.4, 0.9};
+  scene.background.color = Color{0.2, 0.4, 0.9};
   add_ball(scene, Vec3::Zero(), 0.8, red);
   const Image opaque = drawn(scene);
   State nothing = scene.initial;
   nothing.position[0] = Vec3(0, 100, 0);
   const Image behind = drawn(scene, nothing);
   scene.roster.bodies[0].surface = {Finish::plastic, 0.3};
+
   const Image through = drawn(scene);
   for (const Vec3& place : {Vec3(0, 0, 0.8), Vec3(0.3, -0.3, 0.6), Vec3(-0.4, 0, 0.6)}) {
     const test::Point at = test::projected(scene, picture, place);
@@ -139,7 +140,7 @@ TEST(Opacity, LetsLightThroughToTheFloor) {
 
 TEST(Finishes, AMirrorShowsABallUnderItself) {
   Scene scene = even_scene(Vec3(0, 1.5, 4));
-  scene.background = black;
+  scene.background.color = black;
   add_plane(scene, Vec3(0, -0.5, 0), Vec3(0, 1, 0), white);
   add_ball(scene, Vec3(0, 0.3, 0), 0.3, red);
   scene.roster.fixed[0].surface.finish = Finish::metal;
@@ -154,7 +155,7 @@ TEST(Finishes, AMirrorShowsABallUnderItself) {
 
 TEST(Finishes, AThingThatGlowsLightsItsNeighbourAndTheLens) {
   Scene scene = even_scene(Vec3(0, 0, 4));
-  scene.background = black;
+  scene.background.color = black;
   scene.ambient = black;
   scene.lights[0].intensity = 0;
   add_ball(scene, Vec3(-0.4, 0, 0), 0.3, white);
@@ -173,9 +174,10 @@ TEST(Finishes, AThingThatGlowsLightsItsNeighbourAndTheLens) {
 
 TEST(Background, OfNothingLeavesTheShadowsOnAFloor) {
   Scene scene = even_scene(Vec3(0, 3, 6));
-  scene.transparent = true;
+  scene.background.transparent = true;
   add_plane(scene, Vec3(0, -0.5, 0), Vec3(0, 1, 0), white);
   add_ball(scene, Vec3(0, 0.5, 0), 0.5, red);
+
   const Image image = drawn(scene);
   ASSERT_EQ(image.channels, 4);
   const auto opacity = [&](const Vec3& p) {
@@ -200,7 +202,7 @@ TEST(Looks, GiveWhatTheSceneDoesNot) {
     const Image own = drawn(scene);
 
     // What the scene says takes the place of the look's.
-    scene.background = Color{0.2, 0.4, 0.6};
+    scene.background.color = Color{0.2, 0.4, 0.6};
     const Image given = drawn(scene);
     EXPECT_EQ(given.row(3)[0], 51);
     EXPECT_NE(own.row(3)[0], 51);

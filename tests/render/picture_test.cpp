@@ -167,7 +167,7 @@ TEST(Plane, SeenFromBehindItHidesNothing) {
 
 TEST(Plane, OfARoomOnlyTheFarSidesAreSeenFromOutside) {
   Scene scene = test::gas(0);
-  scene.background = black;
+  scene.background.color = black;
   Camera camera;
   camera.eye = Vec3(0, 0, 20);
   camera.target = Vec3::Zero();

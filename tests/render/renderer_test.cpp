@@ -178,7 +178,7 @@ TEST(Size, BeyondWhatCanBeDrawnIsRefused) {
 
 TEST(Size, TheLongestSideIsPaintedToItsEnd) {
   Scene scene;
-  scene.background = Color{1, 1, 1};
+  scene.background.color = Color{1, 1, 1};
   for (const Size size : {Size{16384, 2}, Size{2, 16384}, Size{1, 1}}) {
     const Image image = drawn(scene, size);
     EXPECT_EQ(image.width, size.width);

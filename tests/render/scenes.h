@@ -101,7 +101,7 @@ inline double grey(const Image& image, int x, int y) {
 /// Light without shade: what is drawn is its own colour, so that coverage can be measured.
 inline Scene flat_scene(const Vec3& eye, const Vec3& target, double fov = 45) {
   Scene scene;
-  scene.background = Color{0, 0, 0};
+  scene.background.color = Color{0, 0, 0};
   scene.ambient = Color{1, 1, 1};
   scene.lights.push_back({"none", Vec3(0, -1, 0), {}, {0, 0, 0}, 0});
   Camera camera;

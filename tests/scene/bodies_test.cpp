@@ -140,7 +140,8 @@ TEST(BodyErrors, ObstaclesHaveNoMass) {
       (Parts{
           {"3:17 mass", "unknown key `mass` in obstacle `a`",
            "`mass` is a key of `ball`, `body` or `placed`\n"
-           "expected radius, cylinder, box, mesh, fit, position, inside, open, motion, restitution, color, visible or "
+           "expected radius, cylinder, box, mesh, fit, position, inside, open, motion, restitution, color, finish, opacity, "
+                   "visible or "
            "repeat"}}));
 }
 

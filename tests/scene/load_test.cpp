@@ -375,8 +375,8 @@ TEST(LoadScene, ColoursComeByNameHexAndNumbers) {
   const Scene scene = load_text(start +
                                 "background: '#08f'\nlights: {sun: {direction: [0, -1, 0], color: [1, 0.5, 0]}, lamp: "
                                 "{position: [0, 3, 0], color: RebeccaPurple}, ambient: '#102030'}\n");
-  EXPECT_EQ(scene.background->g, 0x88 / 255.0);
-  EXPECT_EQ(scene.background->b, 1);
+  EXPECT_EQ(scene.background.color->g, 0x88 / 255.0);
+  EXPECT_EQ(scene.background.color->b, 1);
   EXPECT_EQ(scene.lights[0].color.g, 0.5);
   EXPECT_FALSE(scene.lights[0].position);
   EXPECT_EQ(scene.lights[1].color.r, 0x66 / 255.0);

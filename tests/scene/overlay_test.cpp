@@ -176,12 +176,12 @@ TEST(Shutter, IsAPartOfTheInterval) {
 
 TEST(Background, MayBeNoneInPicturesAlone) {
   const Scene none = load_text(balls + "background: none\noutput: {frames: true, sheet: true}\n");
-  EXPECT_TRUE(none.transparent && !none.background);
-  EXPECT_FALSE(load_text(balls + "background: white\n").transparent);
+  EXPECT_TRUE(none.background.transparent && !none.background.color);
+  EXPECT_FALSE(load_text(balls + "background: white\n").background.transparent);
   EXPECT_EQ(in_parts(errors_of(balls + "background: none\noutput: {video: true}\n")),
             (Parts{{"10:17 true", "an MP4 has no transparency, and `background` is `none`",
                     "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`"}}));
-  EXPECT_TRUE(load_text(none.resolved).transparent);
+  EXPECT_TRUE(load_text(none.resolved).background.transparent);
   EXPECT_EQ(errors_of(balls + "background: none\noutput: {video: {file: a.webp}}\n"), "");
 }
 

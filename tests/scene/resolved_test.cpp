@@ -109,7 +109,7 @@ void expect_same_looks(const Scene& a, const Scene& b) {
   }
 
   EXPECT_EQ(a.ambient.has_value(), b.ambient.has_value());
-  EXPECT_EQ(a.background.has_value(), b.background.has_value());
+  EXPECT_EQ(a.background.color.has_value(), b.background.color.has_value());
 }
 
 void expect_same_requests(const Scene& a, const Scene& b) {
@@ -187,10 +187,10 @@ const string brief_resolved =
     "restitution: {default: 1, combine: average}\n"
     "balls:\n"
     "  a: {mass: 10, radius: 0.11, position: [-1, 0, 0.025], velocity: [0, 0, 0], restitution: 1, color: "
-    "\"#d1495b\"}\n"
+    "\"#c8413f\"}\n"
     "  b: {density: 1e3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
     "walls:\n"
-    "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#9aa3ad\", visible: true}\n"
+    "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#8d98a5\", visible: true}\n"
     "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: {mode: bounce, "
     "quality: normal}}\n"
     "output:\n"
