@@ -12,25 +12,25 @@ namespace {
 
 constexpr double most_collisions = 10;
 
-/// The way (m) from x along the unit vector `down` to the nearest plane.
-double way_to_plane(const World& world, const Vec3& x, const Vec3& down) {
+/// The way (m) of a volume at x along the unit vector `down` to the nearest plane.
+double way_to_plane(const World& world, const Volume& volume, const Vec3& x, const Vec3& down) {
   double way = infinity;
   for (const Plane& plane : world.planes) {
     const double approach = -plane.normal.dot(down), height = plane.normal.dot(x - plane.point);
-    if (approach > 0 && height >= 0) way = min(way, height / approach);
+    if (approach > 0 && height >= 0) way = min(way, max(0.0, height - volume.support(plane.normal)) / approach);
   }
   return way;
 }
 
-/// The way (m) from x down to the lowest wall or obstacle. Negative: all of them are higher.
-double way_to_lowest(const World& world, const Vec3& x, const Vec3& down) {
+/// The way (m) of a volume at x down to the lowest wall or obstacle. Negative: all of them are higher.
+double way_to_lowest(const World& world, const Volume& volume, const Vec3& x, const Vec3& down) {
   double way = -infinity;
   for (const Wall& wall : world.walls)
     way = max(way, down.dot(wall.center - x) + wall.half_width * std::abs(wall.right.dot(down)) +
                        wall.half_height * std::abs(wall.up.dot(down)));
   for (const Obstacle& obstacle : world.obstacles)
     way = max(way, down.dot(obstacle.center - x) + obstacle.volume.support(down));
-  return way;
+  return way - volume.support(down);
 }
 
 /// The way (m) from x down to the lowest place that strings from fixed points leave a body. Infinity: there is none.
@@ -108,8 +108,9 @@ double expected_speed(const Scene& scene, Entity body) {
   const double g = world.gravity.norm(), speed = v.norm();
   if (g == 0) return speed;
   const Vec3 down = world.gravity / g, &x = scene.initial.position[body];
-  double fall = min(way_to_plane(world, x, down), way_on_strings(world, body, x, down));
-  if (fall == infinity) fall = way_to_lowest(world, x, down);
+  const Volume volume = world.volume_of(body);
+  double fall = min(way_to_plane(world, volume, x, down), way_on_strings(world, body, x, down));
+  if (fall == infinity) fall = way_to_lowest(world, volume, x, down);
   if (fall >= 0) return sqrt(speed * speed + 2 * g * fall);
   return (v + scene.simulate.duration * world.gravity).norm();
 }

@@ -59,7 +59,8 @@ TEST(Overlay, ThatShowsCollisionsIsSimulatedAgain) {
 
 TEST(Film, ThatNeedsCollisionsIsSimulatedAgain) {
   const Workplace here;
-  here.write("balls.yaml", two_balls("output: {video: {fps: 10, size: [64, 48]}}\n"));
+  here.write("balls.yaml",
+             two_balls("camera: {eye: [0, 1, 5], target: [0, 0, 0]}\noutput: {video: {fps: 10, size: [64, 48]}}\n"));
   ASSERT_EQ(here.carom({"run", "balls.yaml", "-o", "run"}).code, 0);
   for (const string set : {"output.video.slow=auto", "output.video.sound=true"}) {
     const Finished rendered = here.carom({"render", "run", "--set", set, "-o", "b", "--force", "--progress", "none"});
@@ -189,12 +190,13 @@ TEST(Overlay, WithoutItsFontEndsTheRunBeforeItsFolderIsMade) {
   const Finished run =
       here.shell("HOME=/nowhere XDG_DATA_HOME=/nowhere XDG_DATA_DIRS=/nowhere \"$CAROM\" run balls.yaml -o out");
   EXPECT_EQ(run.code, 2);
-  EXPECT_EQ(run.err,
-            "balls.yaml: error: text in pictures needs the typeface DejaVu Sans, and no folder of fonts has "
-            "DejaVuSans.ttf\n"
-            "    = install it (on Debian: apt install fonts-dejavu-core), or leave out `caption`, `labels`, `scale_bar`, "
-            "`arrows`, `color: {by: ...}`, and `title` and `beside` of `video`\n"
-            "carom: 1 error; nothing was run\n");
+  EXPECT_EQ(
+      run.err,
+      "balls.yaml: error: text in pictures needs the typeface DejaVu Sans, and no folder of fonts has "
+      "DejaVuSans.ttf\n"
+      "    = install it (on Debian: apt install fonts-dejavu-core), or leave out `caption`, `labels`, `scale_bar`, "
+      "`arrows`, `color: {by: ...}`, and `title` and `beside` of `video`\n"
+      "carom: 1 error; nothing was run\n");
   EXPECT_FALSE(here.has("out"));
 }
 

@@ -259,6 +259,35 @@ TEST(ReadmeFirstScene, NumbersAreTheRuns) {
   EXPECT_NEAR(simulator->tally().energy_lost, stated("(1 - e²)/2 of that, "), 1e-13);
 }
 
+/// Loosely: another light or another edge may shift a shade, another scene may not.
+void expect_alike(const Pixels& kept, const Pixels& drawn) {
+  ASSERT_EQ(kept.image.width, drawn.image.width);
+  ASSERT_EQ(kept.rgb.size(), drawn.rgb.size());
+  size_t far_off = 0;
+  for (size_t i = 0; i < kept.rgb.size(); ++i) far_off += std::abs(kept.rgb[i] - drawn.rgb[i]) > 24;
+  EXPECT_LT(far_off, kept.rgb.size() / 100);  // measured: 0
+}
+
+TEST(Gallery, HasASmallPictureOfEachSceneAsItsCommandDrawsIt) {
+  const string page = read_file(SCENES_DIR "/gallery.md");
+  uintmax_t bytes = fs::file_size(SCENES_DIR "/billiard_break.png");
+  for (const auto& entry : fs::directory_iterator(SCENES_DIR)) {
+    if (entry.path().extension() != ".yaml") continue;
+    const string name = entry.path().stem().string();
+    EXPECT_NE(page.find("![" + name + "](gallery/" + name + ".png)"), string::npos) << name;
+    bytes += fs::file_size(SCENES_DIR "/gallery/" + name + ".png");
+  }
+  EXPECT_LT(bytes, 1'500'000u);
+
+  const Clone clone;
+  fs::create_directory(clone / "tests");
+  fs::copy(SOURCE_DIR "/tests/gallery.py", clone / "tests");
+  ASSERT_EQ(clone.run("rm scenes/gallery/c*.png && tests/gallery.py build/release/carom clay comet"), 0) << clone.err();
+  for (const char* name : {"clay", "comet"})
+    expect_alike(read_png(string(SCENES_DIR "/gallery/") + name + ".png"),
+                 read_png(clone / ("scenes/gallery/" + string(name) + ".png")));
+}
+
 TEST(ReadmePicture, IsWhatTheProgramDraws) {
   ASSERT_LT(fs::file_size(SCENES_DIR "/billiard_break.png"), 200'000u);
   const Clone clone;
@@ -268,12 +297,7 @@ TEST(ReadmePicture, IsWhatTheProgramDraws) {
   ASSERT_EQ(clone.run(*command), 0) << clone.err();
   const Pixels kept = read_png(SCENES_DIR "/billiard_break.png");
   const Pixels drawn = read_png(clone / "output/picture/frames/frame_00012.png");  // 12 / 30 s = 0.4 s
-  ASSERT_EQ(kept.image.width, drawn.image.width);
-  ASSERT_EQ(kept.rgb.size(), drawn.rgb.size());
-  // Loosely: another light or another edge may shift a shade, another scene may not.
-  size_t far_off = 0;
-  for (size_t i = 0; i < kept.rgb.size(); ++i) far_off += std::abs(kept.rgb[i] - drawn.rgb[i]) > 24;
-  EXPECT_LT(far_off, kept.rgb.size() / 100);  // measured: 0
+  expect_alike(kept, drawn);
 }
 
 BenchResult bench(const string& scene, double longest, double shortest) {

@@ -181,7 +181,7 @@ TEST(Shadow, WhereABallTouchesTheFloorItIsDarkWithoutAnyKeyLight) {
   const Size size{400, 400};
   const auto [x, y] = pixel_of(scene, size, Vec3(0, 0, 0.55));
   Renderer renderer(scene, size, 4);
-  const auto light = [&](const State& state) {
+  const auto light = [&, x = x, y = y](const State& state) {
     const uint8_t* const pixel = renderer.draw(state).row(y) + 3 * x;
     return Vec3(light_of_srgb(pixel[0] / 255.0), light_of_srgb(pixel[1] / 255.0), light_of_srgb(pixel[2] / 255.0));
   };

@@ -187,7 +187,7 @@ TEST(Background, OfNothingLeavesTheShadowsOnAFloor) {
   EXPECT_EQ(opacity(Vec3(0, 0.5, 0.5)), 255);
   EXPECT_GT(opacity(Vec3(0, -0.5, 0.2)), 90);
   EXPECT_EQ(opacity(Vec3(-1.9, -0.5, 0)), 0);
-  EXPECT_EQ(opacity(Vec3(0, -0.5, -50)), 0);
+  EXPECT_EQ(opacity(Vec3(0, -0.5, -20)), 0);
 }
 
 TEST(Looks, GiveWhatTheSceneDoesNot) {
