@@ -17,7 +17,7 @@ struct PictureStream {
   double interval = 1.0 / 30;  // s, simulated, from picture to picture of a film, apart from a slowdown
   int decimals = 3;            // with which times of pictures are written
   FilmClock clock{};
-  bool charted = false;        // the pictures are those of a film, with a chart beside them
+  bool charted = false;  // the pictures are those of a film, with a chart beside them
 };
 
 /// The uses of one PictureStream.

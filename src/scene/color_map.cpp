@@ -43,7 +43,8 @@ Color published(ColorMap map, double at) {
   return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b)};
 }
 
-/// The contrast of a map's start to black: that of graphics which must be told from what they lie on (WCAG 2.2, 1.4.11).
+/// The contrast of a map's start to black: that of graphics which must be told from what they lie on
+/// (WCAG 2.2, 1.4.11).
 constexpr double least_contrast = 3;
 
 /// Where a map is bright enough. It becomes lighter from its start on.

@@ -99,7 +99,8 @@ class Requests {
     // The pictures.
     if (out.frames) check_window(view.part("frames"), out.frames->from, out.frames->until);
     if (out.video) check_video(view.part("video"), *out.video);
-    if (out.video && !chooses_outputs_ && scene_.background.transparent && film_format(out.video->file) == FilmFormat::mp4)
+    if (out.video && !chooses_outputs_ && scene_.background.transparent &&
+        film_format(out.video->file) == FilmFormat::mp4)
       diagnostics_.add(view.place("video"), "an MP4 has no transparency, and `background` is `none`",
                        "expected a `file` ending in .gif or .webp, `frames` or `sheet`, or a colour for `background`");
     if (out.sheet) check_sheet(view, *out.sheet);

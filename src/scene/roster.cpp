@@ -52,8 +52,8 @@ bool drawings_show_collisions(const Scene& scene) {
   const Overlay& overlay = scene.overlay;
   const bool sampled_trails = overlay.trails && !goes_along_parabolas(scene.world, scene.simulate);
   return frames_motion(scene) || overlay.flash || sampled_trails || slows_down(scene) || sounds(scene) ||
-         colors_by_collisions(scene) ||
-         has_name(overlay.caption, "collisions") || ((scene.output.plots || scene.requested.plots) && may_stop(scene));
+         colors_by_collisions(scene) || has_name(overlay.caption, "collisions") ||
+         ((scene.output.plots || scene.requested.plots) && may_stop(scene));
 }
 
 }  // namespace carom

@@ -20,7 +20,8 @@ struct Rule {
 
 /// The table's names for single headers, and for libraries with the start of their include paths.
 const map<string, vector<string>> header_words = {
-    {"scene's types", {"scene/scene.h", "scene/colors.h", "scene/film_layout.h", "scene/look.h", "scene/output.h", "scene/overlay.h"}},
+    {"scene's types",
+     {"scene/scene.h", "scene/colors.h", "scene/film_layout.h", "scene/look.h", "scene/output.h", "scene/overlay.h"}},
     {"yaml's texts", {"yaml/joined.h", "yaml/letters.h", "yaml/other_case.h", "yaml/value_json.h"}},
     {"render's Image", {"render/image.h"}},
     {"render's Model", {"render/model.h"}}};

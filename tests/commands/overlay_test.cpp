@@ -190,6 +190,7 @@ TEST(Overlay, WithoutItsFontEndsTheRunBeforeItsFolderIsMade) {
   const Finished run =
       here.shell("HOME=/nowhere XDG_DATA_HOME=/nowhere XDG_DATA_DIRS=/nowhere \"$CAROM\" run balls.yaml -o out");
   EXPECT_EQ(run.code, 2);
+
   EXPECT_EQ(
       run.err,
       "balls.yaml: error: text in pictures needs the typeface DejaVu Sans, and no folder of fonts has "

@@ -1,9 +1,9 @@
 // Light, shadow and the encoding of both.
 #include <gtest/gtest.h>
 
+#include "numerics/srgb.h"
 #include "render/eye.h"
 #include "render/lighting.h"
-#include "numerics/srgb.h"
 #include "render/scenes.h"
 #include "scene/scene.h"
 #include "std.h"

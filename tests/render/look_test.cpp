@@ -69,13 +69,13 @@ TEST(Walls, InTwoPartsLetNoLightThroughTheirSeam) {
   add_plane(scene, Vec3(0, -0.5, 0), Vec3(0, 1, 0), white);
   add_wall(scene, Vec3(-0.5, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0), 1, 1, black);
   add_wall(scene, Vec3(0.5, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0), 1, 1, black);
+
   const Image image = drawn(scene);
   for (double y = -0.45; y < 0.46; y += 0.02) {
     const test::Point at = test::projected(scene, picture, Vec3(0, y, 0));
     const double beside = grey(image, static_cast<int>(at.x) - 6, static_cast<int>(at.y));
     for (int x = -2; x <= 2; ++x)
-      EXPECT_LE(grey(image, static_cast<int>(at.x) + x, static_cast<int>(at.y)), beside + 20)
-          << y;  // the rounded edges
+      EXPECT_LE(grey(image, static_cast<int>(at.x) + x, static_cast<int>(at.y)), beside + 20) << y;
   }
 
   // From behind, the shadow on the floor: 0.7 m long, without a bright line from the seam.

@@ -135,14 +135,13 @@ TEST(BodyErrors, EdgesAndHeightsAreAboveZero) {
 }
 
 TEST(BodyErrors, ObstaclesHaveNoMass) {
-  EXPECT_EQ(
-      in_parts(errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n")),
-      (Parts{
-          {"3:17 mass", "unknown key `mass` in obstacle `a`",
-           "`mass` is a key of `ball`, `body` or `placed`\n"
-           "expected radius, cylinder, box, mesh, fit, position, inside, open, motion, restitution, color, finish, opacity, "
-                   "visible or "
-           "repeat"}}));
+  EXPECT_EQ(in_parts(errors_of(start + "obstacles: {a: {mass: 1, radius: 1, position: [0, 0, 0]}}\n")),
+            (Parts{{"3:17 mass", "unknown key `mass` in obstacle `a`",
+                    "`mass` is a key of `ball`, `body` or `placed`\n"
+                    "expected radius, cylinder, box, mesh, fit, position, inside, open, motion, restitution, color, "
+                    "finish, opacity, "
+                    "visible or "
+                    "repeat"}}));
 }
 
 TEST(Overlaps, OfEveryVolumeWithEveryOtherAreErrors) {

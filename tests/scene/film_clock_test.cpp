@@ -47,7 +47,7 @@ TEST(FilmClock, MovesOnWithoutAJumpOfItsPace) {
     const double plain = 1e-4 * i;
     const double pace = (clock.shown(plain + step) - clock.shown(plain - step)) / (2 * step);
     EXPECT_NEAR(pace, clock.pace(clock.shown(plain)), 1e-5);  // measured: 2.8e-6
-    EXPECT_NEAR(pace, before, 3e-4);  // measured: 2.8e-4: ln 2 in 0.25 s
+    EXPECT_NEAR(pace, before, 3e-4);                          // measured: 2.8e-4: ln 2 in 0.25 s
     EXPECT_GT(pace, 0.0624);
     before = pace;
   }
