@@ -32,7 +32,7 @@ balls:
 
 # A normal points to the free side of a plane.
 planes:
-  floor: {point: [0, 0, 0], normal: [0, 1, 0], color: tan}
+  floor: {point: [0, 0, 0], normal: [0, 1, 0]}
 
 # walls:
 #   end: {center: [2.5, 0.5, 0], normal: [-1, 0, 0], size: [2, 1]}

@@ -336,8 +336,8 @@ constexpr Field stop_fields[] = {
 };
 
 constexpr Field camera_fields[] = {
-    row<CameraKeys, &CameraKeys::eye>("eye", "Position of the camera; with follow at time 0.", "[0, 3, -5]", {.unit = "m", .one_of = "eye|fit|path", .needed = true, .spared_by = "follow", .title = "Position of the camera", .with = "target"}),
-    row_if_given<CameraKeys, &CameraKeys::target>("target", "Point that the camera looks at; with follow at time 0.", "[0, 0, 0]", {.unit = "m", .one_of = "target|fit|path"}),
+    row<CameraKeys, &CameraKeys::eye>("eye", "Position of the camera; with follow at time 0.", "[0, 3, -5]", {.unit = "m", .one_of = "eye|fit|path", .needed = true, .spared_by = "follow|orbit|projection", .title = "Position of the camera", .with = "target"}),
+    row_if_given<CameraKeys, &CameraKeys::target>("target", "Point that the camera looks at; with follow at time 0.", "[0, 0, 0]", {.unit = "m", .one_of = "target|fit|path", .spared_by = "follow", .with = "eye"}),
     row<CameraKeys, &CameraKeys::up>("up", "Direction that is up in the picture.", "[0, 0, 1]", {.type = Type::direction, .title = "Up in the picture"}),
     row<CameraKeys, &CameraKeys::fov>("fov", "Field of view, the full angle along fov_axis.", "30", {.unit = "degrees", .range = {0, 180, true, true}, .title = "Field of view"}),
     row<CameraKeys, &CameraKeys::fov_horizontal>("fov_axis", "Axis along which fov is measured.", "horizontal", {.type = Type::choice, .of = "vertical|horizontal", .title = "Axis of the field of view"}),
@@ -346,7 +346,7 @@ constexpr Field camera_fields[] = {
     row_if_given<CameraKeys, &CameraKeys::fit>("fit", "Frames what happens: the collisions, what goes into them and comes out of them, and the points that strings and springs hang from. `motion`, or the bodies to frame.", "motion", {.of = "fit", .one_of = "fit|follow|path|eye|target|near|far", .plain = "to"}),
     row<CameraKeys, &CameraKeys::follow>("follow", "A ball, body, group or member (gas.3): eye and target go with its centre of mass. Default of target: that centre; of eye: a view from the front, slightly from above.", "red", {.type = Type::name, .one_of = "follow|fit|path", .title = "Followed bodies", .pattern = reference}),
     row("path", "Views at times in order; the camera moves smoothly from one to the next.", "[{at: 0, eye: [0, 3, -5], target: [0, 0, 0]}, {at: 2, eye: [5, 3, 0], target: [0, 0, 0]}]", {.type = Type::list, .of = "keyframe", .one_of = "path|fit|follow|eye|target|orbit"}),
-    row_if_given<CameraKeys, &CameraKeys::orbit>("orbit", "Goes round its target, about `up`, counterclockwise as seen from above.", "{period: 20}", {.of = "orbit", .one_of = "orbit|path"}),
+    row_if_given<CameraKeys, &CameraKeys::orbit>("orbit", "Goes round its target, about `up`, counterclockwise as seen from above. Without `eye`: round what happens.", "{period: 20}", {.of = "orbit", .one_of = "orbit|path"}),
     row<CameraKeys, &CameraKeys::orthographic>("projection", "A parallel projection has no vanishing points. Its picture is as high as in perspective at the target.", "orthographic", {.type = Type::choice, .of = "perspective|orthographic", .title = "Projection"}),
 };
 

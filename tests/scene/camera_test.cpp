@@ -145,13 +145,23 @@ TEST(CameraErrors, KeysThatDoNotGoTogetherAreRefused) {
     EXPECT_NE(error_of(camera).find("`camera` has both "), string::npos) << camera << error_of(camera);
 }
 
+TEST(Camera, OfARoundOrAProjectionAloneFramesTheMotion) {
+  for (const char* camera : {"{orbit: {period: 4}}", "{projection: orthographic, fov: 30}"})
+    EXPECT_TRUE(frames_motion(load_text(start + "camera: " + camera + "\n"))) << camera;
+}
+
 TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
   EXPECT_EQ(in_parts(errors_of(start + "camera: {fov: 30}\n")),
-            (Parts{{"3:1 camera", "`camera` has no `eye` and no `fit` and no `path` and no `follow`",
+            (Parts{{"3:1 camera",
+                    "`camera` has no `eye` and no `fit` and no `path` and no `follow` and no `orbit` and no "
+                    "`projection`",
                     "expected `eye`: [x, y, z], three numbers in m\n"
                     "or `fit`: a map of keys, or a value of `to`\n"
                     "or `path`: a list\n"
-                    "or `follow`: a name"}}));
+                    "or `follow`: a name\n"
+                    "or `orbit`: a map of keys\n"
+                    "or `projection`: perspective or orthographic"}}));
+  EXPECT_EQ(error_of("{orbit: {period: 4}, target: [0, 0, 5]}"), "`camera` has `target` but no `eye`");
   EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), string::npos);
   EXPECT_EQ(error_of("{eye: [0, 0, 5]}"), "`camera` has `eye` but no `target`");
 }
