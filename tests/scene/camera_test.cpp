@@ -161,6 +161,7 @@ TEST(CameraErrors, WithoutAPlaceItNamesTheWaysToOne) {
                     "or `follow`: a name\n"
                     "or `orbit`: a map of keys\n"
                     "or `projection`: perspective or orthographic"}}));
+
   EXPECT_EQ(error_of("{orbit: {period: 4}, target: [0, 0, 5]}"), "`camera` has `target` but no `eye`");
   EXPECT_EQ(errors_of(start + "camera: {near: 1}\n").find("`camera` has `near`"), string::npos);
   EXPECT_EQ(error_of("{eye: [0, 0, 5]}"), "`camera` has `eye` but no `target`");
