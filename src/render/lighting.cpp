@@ -48,12 +48,10 @@ raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise) {
   return light;
 }
 
-void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot) {
+void add_lights(const Scene& scene, const Camera& at_start, const Eye& eye, raster::Shot& shot) {
   const LookStyle& style = style_of(scene.look);
   shot.lighting.lamps.clear();
 
-  // A camera that moves leaves the lights as they are at time 0.
-  const Camera at_start = camera_of(scene);
   for (const Light& light : scene.lights) {
     raster::Float3 radiance = linear(light.color);
     for (float& c : radiance) c *= float(light.intensity);

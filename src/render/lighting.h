@@ -30,6 +30,7 @@ raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise);
 
 /// Fills the lamps of a shot, their softness and the ambient light. The first lamp is the key light, which casts
 /// shadows. One with a position has the same apparent size from the camera's target.
-void add_lights(const Scene& scene, const Eye& eye, raster::Shot& shot);
+/// A camera that moves leaves the lights as they are for `at_start`, the camera of time 0.
+void add_lights(const Scene& scene, const Camera& at_start, const Eye& eye, raster::Shot& shot);
 
 }  // namespace carom

@@ -80,7 +80,7 @@ struct Renderer::Impl {
   vector<vector<uint8_t>> images;  // of planes that mirror
   optional<Meshes> meshes;
   optional<raster::Threads> threads;
-  optional<Camera> own_camera;
+  optional<Camera> own_camera;  // camera_of(scene)
   LastPicture last;
   Image image;
   uint64_t drawn = 0;
@@ -92,7 +92,8 @@ void Renderer::Impl::place_camera(const Eye& eye) {
   shot.lens.top = float(eye.tan_y - 0.5 * eye.pixel);
   shot.lens.near = float(eye.camera.near);
   for (size_t i = 0; i < 3; ++i) shot.lens.axes[i] = floats(eye.direction(Vec3::Unit(int(i))));
-  add_lights(scene, eye, shot);
+  if (!own_camera) own_camera = camera_of(scene);
+  add_lights(scene, *own_camera, eye, shot);
   add_surfaces(scene, eye, shot);
 }
 
@@ -110,11 +111,12 @@ void Renderer::Impl::prepare(const raster::Shot& seen) {
   }
 }
 
-/// Draws what planes mirror.
+/// Draws what level planes mirror. The sides of a room are of glass by default, and a picture for each would be dear.
 void Renderer::Impl::draw_images() {
   size_t count = 0;
   for (raster::Ground& ground : shot.grounds) {
-    if (!(ground.most_mirror > 0 && ground.height > 0)) continue;
+    const bool level = raster::dot(ground.normal, shot.lens.axes[1]) > 0.7F;
+    if (!(level && ground.most_mirror > 0 && ground.height > 0)) continue;
     if (images.size() <= count) images.emplace_back(4 * size_t(size.width) * size_t(size.height));
     vector<uint8_t>& pixels = images[count++];
 

@@ -147,7 +147,7 @@ TEST(CameraOnAPath, LeavesTheLightsWhereTheyWere) {
       state.time = time;
       const Eye eye(camera.at(state), size);
       raster::Shot shot;
-      add_lights(scene, eye, shot);
+      add_lights(scene, camera_of(scene), eye, shot);
 
       const raster::Float3 in_picture = shot.lighting.lamps.at(0).vector;
       const Vec3 world =
