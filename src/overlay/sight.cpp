@@ -1,5 +1,6 @@
 #include "overlay/sight.h"
 
+#include "render/lighting.h"
 #include "std.h"
 
 namespace carom {
@@ -97,7 +98,9 @@ bool is_hidden(const Moment& moment, Entity body) {
   }
 
   const vector<FixedLook>& looks = moment.scene.roster.fixed;
-  const auto seen = [&](size_t number) { return number >= looks.size() || looks[number].visible; };
+  const auto seen = [&](size_t number) {
+    return number >= looks.size() || (looks[number].visible && is_opaque(looks[number].surface));
+  };
   const DoubleDouble now{moment.state.time, 0};
   for (size_t i = 0; i < world.walls.size(); ++i) {
     const size_t number = world.planes.size() + i;

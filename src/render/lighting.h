@@ -28,6 +28,11 @@ inline constexpr double softness = 0.03;
 /// How a surface reflects light. `otherwise`: the finish of one that has none.
 raster::SurfaceLight surface_light(const Surface& surface, Finish otherwise);
 
+/// Whether a thing hides most of what is behind it.
+inline bool is_opaque(const Surface& surface) {
+  return surface_light(surface, Finish::plastic).opacity >= 0.5F;
+}
+
 /// Fills the lamps of a shot, their softness and the ambient light. The first lamp is the key light, which casts
 /// shadows. One with a position has the same apparent size from the camera's target.
 /// A camera that moves leaves the lights as they are for `at_start`, the camera of time 0.

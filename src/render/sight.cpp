@@ -2,6 +2,7 @@
 // line of sight meets a convex thing in an interval of it.
 #include "render/sight.h"
 
+#include "render/lighting.h"
 #include "render/surfaces.h"
 #include "std.h"
 
@@ -59,7 +60,8 @@ Sight::Sight(const Scene& scene) : scene_(scene) {
   const World& world = scene.world;
   for (size_t i = world.planes.size(); i < world.fixed_count(); ++i) {
     const Entity e = Entity(world.body_count() + i);
-    if (look_of_fixed(scene, i).visible && !world.is_shell(e)) opaque_.push_back(e);
+    const FixedLook& look = look_of_fixed(scene, i);
+    if (look.visible && is_opaque(look.surface) && !world.is_shell(e)) opaque_.push_back(e);
   }
 }
 

@@ -168,6 +168,11 @@ TEST(Check, SaysWhatIsHiddenWhenAndBehindWhat) {
   EXPECT_NEAR(hiding.at("from_s").get<double>(), 1.5, 0.11);
   EXPECT_LE(hiding.at("from_s"), hiding.at("until_s"));
   EXPECT_NE(here.carom({"check", "post.yaml"}).out.find("  hidden      ball is behind post "), string::npos);
+
+  // Glass hides nothing.
+  EXPECT_NE(
+      here.carom({"check", "post.yaml", "--set", "obstacles.post.finish=glass"}).out.find("no body in the picture"),
+      string::npos);
 }
 
 TEST(Check, OfACameraThatFramesTheMotionNothingIsHidden) {
