@@ -96,7 +96,7 @@ class ViewPlanner {
   /// A motion that is less than half as high as it is deep, such as one on a table, is seen from higher up.
   size_t first_elevation() const {
     const Frustum frustum = frustum_from(elevations.front());
-    const Extent bodies = view_.content(frustum, MotionView::whole).bodies;
+    const Extent bodies = view_.all(frustum).bodies;
     if (2 * size_along(bodies, frustum.up()) >= size_along(bodies, frustum.front())) return 0;
     const Plan low = plan_from(elevations[flat_from]), high = plan_from(elevations[flat_from + 1]);
     const bool is_as_good = high.least > worth_height * low.least && high.kept > worth_height * low.kept;
@@ -105,7 +105,7 @@ class ViewPlanner {
 
   Plan plan_from(double elevation) const {
     const Frustum frustum = frustum_from(elevation);
-    Plan still = still_plan(frustum, elevation);
+    Plan still = still_plan(views_from(elevation));
     const bool is_good = still.least >= (view_.is_quiet() ? least_size : good_size);
     if ((is_good && (still.kept >= some_kept || view_.is_quiet())) || orbit_ > 0 || samples_.instants() < few_instants)
       return still;
@@ -116,28 +116,40 @@ class ViewPlanner {
     return is_better ? moving : still;
   }
 
+  /// The directions from which a still eye, or one that goes round, looks.
+  vector<Frustum> views_from(double elevation) const {
+    vector<Frustum> views;
+    const int count = orbit_ > 0 ? round_views : 1;
+    for (int i = 0; i < count; ++i) views.push_back(frustum_from(elevation, 360.0 * i / count));
+    return views;
+  }
+
   /// The widest scope in which bodies are large enough as they collide. A narrower one has to show them larger.
-  Plan still_plan(const Frustum& frustum, double elevation) const {
-    Plan best = still_plan(frustum, elevation, MotionView::whole);
-    for (size_t scope = MotionView::whole; scope-- > 0 && !view_.is_quiet();) {
+  Plan still_plan(const vector<Frustum>& views) const {
+    vector<MotionView::Content> contents;
+    for (const Frustum& view : views) contents.push_back(view_.all(view));
+    Plan best = still_plan(views, contents);
+    if (view_.is_quiet() || best.least >= large) return best;
+
+    vector<array<MotionView::Content, MotionView::whole>> parts;
+    for (const Frustum& view : views) parts.push_back(view_.parts(view));
+    for (size_t scope = MotionView::whole; scope-- > 0;) {
       if (best.least >= (scope >= widest_cut ? large : good_size)) break;
-      Plan plan = still_plan(frustum, elevation, scope);
+      for (size_t i = 0; i < views.size(); ++i) contents[i] = parts[i][scope];
+      Plan plan = still_plan(views, contents);
       if (best.least >= good_size && plan.kept < nearly_all_kept) break;
       if (plan.least > worth_cutting * best.least) best = std::move(plan);
     }
     return best;
   }
 
-  Plan still_plan(const Frustum& frustum, double elevation, size_t scope) const {
-    const MotionView::Content content = view_.content(frustum, scope);
-    const Vec3 middle = content.bodies.middle();
-    Vec3 eye = frustum.eye(content.reach);
-    double distance = frustum.depth(content.reach, middle);
+  Plan still_plan(const vector<Frustum>& views, const vector<MotionView::Content>& contents) const {
+    const Frustum& frustum = views.front();
+    const Vec3 middle = contents.front().bodies.middle();
+    Vec3 eye = frustum.eye(contents.front().reach);
+    double distance = frustum.depth(contents.front().reach, middle);
     if (orbit_ > 0) {
-      for (int i = 0; i < round_views; ++i) {
-        const Frustum turned = frustum_from(elevation, 360.0 * i / round_views);
-        distance = max(distance, turned.distance(view_.content(turned, scope).reach, middle));
-      }
+      for (size_t i = 0; i < views.size(); ++i) distance = max(distance, views[i].distance(contents[i].reach, middle));
       eye = middle - distance * frustum.view().forward;
     }
     // All is in one point.
@@ -147,34 +159,41 @@ class ViewPlanner {
     }
 
     // Nor nearer than necessary.
+    const auto still = [&](size_t) -> const Vec3& { return eye; };
     Plan plan{{lens_, {}, {}}};
-    measure(plan, frustum, [&](size_t) -> const Vec3& { return eye; });
+    plan.least = least_size_of(frustum, still);
     if (plan.least > largest) {
       const double back = (plan.least / largest - 1) * distance;
       eye -= back * frustum.view().forward;
       distance += back;
+      plan.least = least_size_of(frustum, still);
     }
+    plan.kept = kept(frustum, still);
 
     plan.views.camera.eye = eye;
     plan.views.camera.target = eye + distance * frustum.view().forward;
     set_limits(plan.views.camera, distance, distance);
-    measure(plan, frustum, [&](size_t) -> const Vec3& { return eye; });
     return plan;
   }
 
-  /// How large bodies are as they collide, and how many are in view.
+  /// How large bodies are as they collide: the part of the picture's height that the smallest one has.
   template <typename EyeAt>
-  void measure(Plan& plan, const Frustum& frustum, const EyeAt& eye) const {
-    plan.least = 1;
+  double least_size_of(const Frustum& frustum, const EyeAt& eye) const {
+    double least = 1;
     for (const MotionView::Strike& strike : view_.strikes()) {
       const Vec3& center = samples_.center(strike.instant, strike.body);
       // Of a quiet motion some may have left.
       if (view_.is_quiet() && !frustum.has(center, eye(strike.instant))) continue;
       const double depth = frustum.view().forward.dot(center - eye(strike.instant));
       const double height = 2 * samples_.volume(strike.instant, strike.body).half.maxCoeff();
-      plan.least = min(plan.least, height / frustum.height(depth));
+      least = min(least, height / frustum.height(depth));
     }
+    return least;
+  }
 
+  /// The share of the bodies that is in view, over all instants.
+  template <typename EyeAt>
+  double kept(const Frustum& frustum, const EyeAt& eye) const {
     size_t there = 0, kept = 0;
     for (size_t k = 0; k < samples_.instants(); ++k)
       for (size_t i = 0; i < samples_.bodies().size(); ++i) {
@@ -182,7 +201,7 @@ class ViewPlanner {
         ++there;
         kept += frustum.has(samples_.center(k, i), eye(k));
       }
-    plan.kept = there > 0 ? double(kept) / double(there) : 1;
+    return there > 0 ? double(kept) / double(there) : 1;
   }
 
   /// The widest scope in which bodies are large enough as they collide, or the one in which they are largest.
@@ -290,7 +309,9 @@ class ViewPlanner {
     plan.views.camera.eye = plan.views.path.front().eye;
     plan.views.camera.target = plan.views.path.front().target;
     set_limits(plan.views.camera, *nearest, *farthest);
-    measure(plan, frustum, [&](size_t instant) -> const Vec3& { return eyes[instant]; });
+    const auto moving = [&](size_t instant) -> const Vec3& { return eyes[instant]; };
+    plan.least = least_size_of(frustum, moving);
+    plan.kept = kept(frustum, moving);
     return plan;
   }
 

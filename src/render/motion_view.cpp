@@ -258,6 +258,13 @@ void MotionView::add_fixed_things(Content& content, const Frustum& frustum) cons
   if (content.empty()) add(content, frustum, Vec3::Zero(), {});
 }
 
+void MotionView::add_what_is_around(Content& content, const Frustum& frustum) const {
+  if (is_of_some_)
+    add_named_things(content, frustum);
+  else
+    add_surroundings(content, frustum);
+}
+
 /// The things that the scene names, and nothing else.
 void MotionView::add_named_things(Content& content, const Frustum& frustum) const {
   const World& world = scene_.world;
@@ -272,26 +279,30 @@ void MotionView::add_named_things(Content& content, const Frustum& frustum) cons
   }
 }
 
-MotionView::Content MotionView::content(const Frustum& frustum, size_t scope) const {
+MotionView::Content MotionView::all(const Frustum& frustum) const {
   Content content;
   if (samples_.instants() == 0 || scene_.world.body_count() == 0) {
     add_fixed_things(content, frustum);
     return content;
   }
-
-  if (scope == whole) {
-    content = without_the_leaving(frustum);
-  } else {
-    for (size_t k = 0; k < samples_.instants(); ++k)
-      for (size_t i = 0; i < samples_.bodies().size(); ++i)
-        if (is_in(scope, k, i)) add(content, frustum, k, i);
-  }
-
-  if (is_of_some_)
-    add_named_things(content, frustum);
-  else
-    add_surroundings(content, frustum);
+  content = without_the_leaving(frustum);
+  add_what_is_around(content, frustum);
   return content;
+}
+
+array<MotionView::Content, MotionView::whole> MotionView::parts(const Frustum& frustum) const {
+  array<Content, whole> parts;
+  for (size_t k = 0; k < samples_.instants(); ++k)
+    for (size_t i = 0; i < samples_.bodies().size(); ++i) {
+      const uint8_t scope = scope_[k * samples_.bodies().size() + i];
+      if (scope < whole) add(parts[scope], frustum, k, i);
+    }
+
+  // Each has what the narrower ones have.
+  for (size_t scope = 1; scope < whole; ++scope) parts[scope].add(parts[scope - 1]);
+  for (Content& content : parts)
+    if (!content.empty()) add_what_is_around(content, frustum);
+  return parts;
 }
 
 vector<MotionView::Moment> MotionView::moments(const Frustum& frustum, size_t scope) const {

@@ -40,8 +40,10 @@ class MotionView {
 
   /// Whether nothing collides. All motion then counts as what happens.
   bool is_quiet() const { return quiet_; }
-  /// Without bodies, the fixed things.
-  Content content(const Frustum& frustum, size_t scope) const;
+  /// Of the whole motion. Without bodies, the fixed things.
+  Content all(const Frustum& frustum) const;
+  /// Of the narrower scopes, ascending. Empty: nothing collides.
+  array<Content, whole> parts(const Frustum& frustum) const;
 
   /// What a camera that goes along is to hold at an instant.
   struct Moment {
@@ -70,6 +72,7 @@ class MotionView {
   void add(Content& content, const Frustum& frustum, const Vec3& center, const Volume& volume) const;
   void add(Content& content, const Frustum& frustum, size_t instant, size_t i) const;
   Content without_the_leaving(const Frustum& frustum) const;
+  void add_what_is_around(Content& content, const Frustum& frustum) const;
   void add_surroundings(Content& content, const Frustum& frustum) const;
   vector<Vec3> places_of(Entity fixed) const;
   void add_fixed_things(Content& content, const Frustum& frustum) const;
