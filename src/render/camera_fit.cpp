@@ -22,13 +22,14 @@ constexpr double largest = 0.25, large = 0.08, good_size = 0.045, fair_size = 0.
 constexpr array shares = {0.95, 0.9, 0.8, 0.7, 0.6, 0.5};
 /// The gain in size that makes up for a shorter time in view, and for a camera that moves.
 constexpr double worth_cutting = 1.3, worth_moving = 1.3;
-/// The share of the bodies in view from which on a view need not keep more, and a gain in it that is worth a move.
+/// The share of the bodies in view from which on a view need not keep more, that of the bodies or of the instants with
+/// one in view which a view keeps if it shows bodies larger than they need be, and a gain that is worth a move.
 constexpr double some_kept = 0.35, nearly_all_kept = 0.95, worth_keeping = 0.15;
 /// Of a camera that moves, per second of film: heights of the picture, and the natural logarithm of the distance.
 constexpr double top_speed = 1, top_acceleration = 2;
 
-constexpr array elevations = {slight_elevation, 30.0, 45.0, 60.0};  // degrees
-constexpr size_t flat_from = 1;                                     // of a flat motion
+constexpr array elevations = {slight_elevation, 30.0, 45.0, 60.0, 75.0, 85.0};  // degrees
+constexpr size_t flat_from = 1;                                                 // of a flat motion
 /// A steeper view of a flat motion shows bodies apart, unless they become smaller than so.
 constexpr double worth_height = 0.95;
 /// Fewer are known only of very many bodies, which no camera goes along with.
@@ -51,6 +52,7 @@ struct Plan {
   CameraViews views;
   double least = 0;  // part of the picture's height that a body has at least as it collides
   double kept = 0;   // mean share of the bodies that are in view
+  double shown = 0;  // share of the instants that have a body in view
 };
 
 /// What is hidden of the lines of sight that were tried.
@@ -83,7 +85,7 @@ class ViewPlanner {
     for (size_t i = first_elevation(); i < elevations.size(); ++i) {
       Plan plan = plan_from(elevations[i]);
       Hidden hidden = hidden_in(plan.views);
-      if (hidden.share + may_be_hidden >= least_hidden.share) continue;
+      if (!hidden.none() && hidden.share + may_be_hidden >= least_hidden.share) continue;
       best_ = std::move(plan);
       least_hidden = std::move(hidden);
       if (least_hidden.none()) return;
@@ -138,6 +140,7 @@ class ViewPlanner {
       for (size_t i = 0; i < views.size(); ++i) contents[i] = parts[i][scope];
       Plan plan = still_plan(views, contents);
       if (best.least >= good_size && plan.kept < nearly_all_kept) break;
+      if (best.least >= least_size && plan.shown < nearly_all_kept) break;
       if (plan.least > worth_cutting * best.least) best = std::move(plan);
     }
     return best;
@@ -168,7 +171,7 @@ class ViewPlanner {
       distance += back;
       plan.least = least_size_of(frustum, still);
     }
-    plan.kept = kept(frustum, still);
+    find_kept(plan, frustum, still);
 
     plan.views.camera.eye = eye;
     plan.views.camera.target = eye + distance * frustum.view().forward;
@@ -191,17 +194,21 @@ class ViewPlanner {
     return least;
   }
 
-  /// The share of the bodies that is in view, over all instants.
   template <typename EyeAt>
-  double kept(const Frustum& frustum, const EyeAt& eye) const {
-    size_t there = 0, kept = 0;
-    for (size_t k = 0; k < samples_.instants(); ++k)
+  void find_kept(Plan& plan, const Frustum& frustum, const EyeAt& eye) const {
+    size_t there = 0, kept = 0, instants = 0, shown = 0;
+    for (size_t k = 0; k < samples_.instants(); ++k) {
+      const size_t there_before = there, kept_before = kept;
       for (size_t i = 0; i < samples_.bodies().size(); ++i) {
         if (!samples_.is_there(k, i)) continue;
         ++there;
         kept += frustum.has(samples_.center(k, i), eye(k));
       }
-    return there > 0 ? double(kept) / double(there) : 1;
+      instants += there > there_before;
+      shown += kept > kept_before;
+    }
+    plan.kept = there > 0 ? double(kept) / double(there) : 1;
+    plan.shown = instants > 0 ? double(shown) / double(instants) : 1;
   }
 
   /// The widest scope in which bodies are large enough as they collide, or the one in which they are largest.
@@ -311,7 +318,7 @@ class ViewPlanner {
     set_limits(plan.views.camera, *nearest, *farthest);
     const auto moving = [&](size_t instant) -> const Vec3& { return eyes[instant]; };
     plan.least = least_size_of(frustum, moving);
-    plan.kept = kept(frustum, moving);
+    find_kept(plan, frustum, moving);
     return plan;
   }
 

@@ -38,7 +38,7 @@ bool reaches(const Volume& volume, const Vec3& d) {
 }
 
 /// Of a thing that hides what happens.
-constexpr double faded_opacity = 0.12;
+constexpr double faded_opacity = 0.25;
 
 }  // namespace
 
