@@ -37,13 +37,16 @@ double WallThickness::depth(size_t i, double side, const State& state) const {
 
   double depth = most(wall);
   for (Entity body = 0; body < state.position.size(); ++body) {
+    if (is_gone(state, body)) continue;
     const Vec3 way = state.position[body] - wall.center;
-    const double gap = side * wall.normal.dot(way) - scene_.world.radius[body];
-    if (gap >= depth || gap < -2 * scene_.world.radius[body] || is_gone(state, body)) continue;
     const double reach = volume_now(scene_.world, state, body).reach();
-    if (std::abs(wall.right.dot(way)) < wall.half_width + reach &&
-        std::abs(wall.up.dot(way)) < wall.half_height + reach)
-      depth = max(gap, least);
+
+    // Of a ball beyond an edge, the part that the wall's thickness could meet.
+    const double beyond = hypot(max(std::abs(wall.right.dot(way)) - wall.half_width, 0.0),
+                                max(std::abs(wall.up.dot(way)) - wall.half_height, 0.0));
+    if (beyond >= reach) continue;
+    const double half = sqrt(reach * reach - beyond * beyond), above = side * wall.normal.dot(way);
+    if (above > -half) depth = max(min(depth, above - half), least);
   }
   return depth;
 }
