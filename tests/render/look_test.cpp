@@ -106,6 +106,9 @@ TEST(Walls, AreThickWhereNoBodyIs) {
   // One that passes beside it takes nothing off.
   state.position[0] = Vec3(1.5, 0.2, -0.05);
   EXPECT_DOUBLE_EQ(thickness.of(0, state).back, 0.06);
+  // One beyond the edge takes off what the wall would go into it: the edge is 0.03 away from its middle.
+  state.position[0] = Vec3(1.5, 0.05 + 0.03, -0.07);
+  EXPECT_NEAR(thickness.of(0, state).back, 0.07 - 0.04, 1e-15);
 }
 
 TEST(Opacity, MixesWhatIsInFrontAndWhatIsBehind) {

@@ -81,6 +81,26 @@ TEST(Survey, FramesTheWindowsThatAreShown) {
   EXPECT_NEAR((surveyed(both).eye - surveyed(whole).eye).norm(), 0, 1e-12);
 }
 
+// The drops are in the air for most of the film. The view of their collisions alone would show them larger, and nothing
+// at first.
+TEST(Survey, HasALongFallBeforeTheFirstCollisionInView) {
+  Scene scene = scene_at(SCENES_DIR "/raindrops.yaml");
+  scene.camera.reset();
+  const Size size{540, 960};
+  EXPECT_LT(filled(scene, surveyed(scene, size), size), 1);
+}
+
+TEST(Survey, SeesFromAboveWhatThingsOnATableWouldHide) {
+  Scene scene = scene_at(SCENES_DIR "/pinball.yaml");
+  scene.camera.reset();
+  MovingCamera camera(scene, {720, 960});
+  MovingCamera* const cameras[] = {&camera};
+  survey(cameras, *make_simulator(scene, {.collisions = true}), [] {});
+  const Camera at_start = camera.at(scene.initial);
+  EXPECT_TRUE(camera.faded().empty());
+  EXPECT_NEAR((at_start.target - at_start.eye).normalized().y(), -std::sin(85 * M_PI / 180), 1e-12);
+}
+
 TEST(Survey, OfSlowMotionFramesItsInstants) {
   const RunPlace place;
   const Scene scene = place.scene(marble_run + "output: {video: {speed: 0.125, until: 0.5}}\n");
