@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "physics/energy.h"
+#include "render/sight.h"
 #include "scene/color_scale.h"
 #include "std.h"
 
@@ -37,8 +38,21 @@ vector<string> lines_of(const Labels& labels, const Moment& moment, Entity body,
   return lines;
 }
 
+/// Whether something lies between the eye and a body's centre: another body, or a thing that is not seen through.
+bool is_hidden(const Sight& sight, const Moment& moment, Entity body) {
+  const Vec3& eye = moment.eye.camera.eye;
+  const Vec3& center = moment.state.position[body];
+  for (Entity other = 0; other < moment.world.body_count(); ++other) {
+    if (other == body || moment.is_part(other)) continue;
+    const Volume volume = volume_now(moment.world, moment.state, other);
+    if (is_between(volume, moment.state.position[other], eye, center)) return true;
+  }
+  return sight.is_hidden(moment.world, moment.state.time, eye, center);
+}
+
 void add_labels(const Labels& labels, const Moment& moment, double fastest, Marks& marks) {
   const Eye& eye = moment.eye;
+  const Sight sight(moment.scene);
   for (Entity body = 0; body < moment.world.body_count(); ++body) {
     if (moment.is_part(body) || !eye.may_see(eye.point(moment.state.position[body]), moment.radius_of(body))) continue;
     const optional<BodyBounds> bounds = bounds_of(moment, body);
@@ -48,7 +62,7 @@ void add_labels(const Labels& labels, const Moment& moment, double fastest, Mark
     const double x = (bounds->left + bounds->right) / 2, y = (bounds->top + bounds->bottom) / 2;
     const bool in_view = x >= 0 && x <= eye.size.width && y >= 0 && y <= eye.size.height;
     const bool wanted = labels.on.empty() || std::binary_search(labels.on.begin(), labels.on.end(), body);
-    if (wanted && in_view && !is_hidden(moment, body))
+    if (wanted && in_view && !is_hidden(sight, moment, body))
       marks.labels.push_back({*bounds, lines_of(labels, moment, body, fastest)});
   }
 }

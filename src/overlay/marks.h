@@ -2,8 +2,8 @@
 // What is written onto the picture of an instant besides caption and legends: values beside bodies, a bar of known
 // length, and the sum of the momenta. Plain data; mark_painter.h draws it.
 
+#include "overlay/body_bounds.h"
 #include "overlay/moment.h"
-#include "overlay/sight.h"
 #include "scene/colors.h"
 #include "std.h"
 

@@ -35,8 +35,14 @@ struct LinePart {
   }
 };
 
-/// Whether a line of sight from `at` along `way` meets a volume about the origin. One that begins inside does not.
-bool meets(const Volume& volume, const Vec3& at, const Vec3& way) {
+Vec3 place_of(const World& world, Entity fixed, double time) {
+  return world.moves(fixed) ? fixed_position(world, fixed, {time, 0}) : world.fixed_position(fixed);
+}
+
+}  // namespace
+
+bool is_between(const Volume& volume, const Vec3& center, const Vec3& eye, const Vec3& point) {
+  const Vec3 at = eye - center, way = point - eye;
   LinePart part;
   const Vec3& half = volume.half;
 
@@ -54,8 +60,6 @@ bool meets(const Volume& volume, const Vec3& at, const Vec3& way) {
   return part.from > 0 && part.until - part.from > 1e-9;
 }
 
-}  // namespace
-
 Sight::Sight(const Scene& scene) : scene_(scene) {
   const World& world = scene.world;
   for (size_t i = world.planes.size(); i < world.fixed_count(); ++i) {
@@ -66,17 +70,20 @@ Sight::Sight(const Scene& scene) : scene_(scene) {
 }
 
 bool Sight::hides(const World& world, Entity e, const Vec3& at, const Vec3& eye, const Vec3& point) const {
-  if (world.is_wall(e)) {
-    const Wall& wall = world.wall(e);
-    const double of_eye = wall.normal.dot(eye - at), of_point = wall.normal.dot(point - at);
-    if (!(of_eye * of_point < 0)) return false;
-    const Vec3 there = eye + of_eye / (of_eye - of_point) * (point - eye) - at;
-    return std::abs(wall.right.dot(there)) < wall.half_width && std::abs(wall.up.dot(there)) < wall.half_height;
-  }
   // A flat part of a hollow obstacle is drawn from within alone.
   const Vec3& inward = look_of_fixed(scene_, e - world.body_count()).inward;
   if (!inward.isZero(0) && !(inward.dot(eye - at) > 0)) return false;
-  return meets(world.obstacle(e).volume, eye - at, point - eye);
+  if (!world.is_wall(e)) return is_between(world.obstacle(e).volume, at, eye, point);
+
+  const Wall& wall = world.wall(e);
+  const double of_eye = wall.normal.dot(eye - at), of_point = wall.normal.dot(point - at);
+  if (!(of_eye * of_point < 0)) return false;
+  const Vec3 there = eye + of_eye / (of_eye - of_point) * (point - eye) - at;
+  return std::abs(wall.right.dot(there)) < wall.half_width && std::abs(wall.up.dot(there)) < wall.half_height;
+}
+
+bool Sight::is_hidden(const World& world, double time, const Vec3& eye, const Vec3& point) const {
+  return ranges::any_of(opaque_, [&](Entity e) { return hides(world, e, place_of(world, e, time), eye, point); });
 }
 
 vector<Entity> Sight::hiders(const World& world, double time, const Vec3& eye, const CameraFrame& view,
@@ -89,7 +96,7 @@ vector<Entity> Sight::hiders(const World& world, double time, const Vec3& eye, c
   vector<Entity> alone, together;
 
   for (const Entity e : opaque_) {
-    const Vec3 at = world.moves(e) ? fixed_position(world, e, {time, 0}) : world.fixed_position(e);
+    const Vec3 at = place_of(world, e, time);
     ptrdiff_t count = 0;
     for (size_t i = 0; i < points.size(); ++i) {
       if (!hides(world, e, at, eye, points[i])) continue;

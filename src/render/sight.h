@@ -8,6 +8,9 @@
 
 namespace carom {
 
+/// Whether a volume about `center` lies between the eye and a point. One around the eye does not.
+bool is_between(const Volume& volume, const Vec3& center, const Vec3& eye, const Vec3& point);
+
 class Sight {
  public:
   /// `scene` must outlive this object.
@@ -21,6 +24,8 @@ class Sight {
   /// scene's with the times that events have set. `time`: s.
   vector<Entity> hiders(const World& world, double time, const Vec3& eye, const CameraFrame& view, const Vec3& center,
                         double radius) const;
+  /// Whether any of them hides a point.
+  bool is_hidden(const World& world, double time, const Vec3& eye, const Vec3& point) const;
 
  private:
   bool hides(const World& world, Entity e, const Vec3& at, const Vec3& eye, const Vec3& point) const;

@@ -175,7 +175,7 @@ class EverySceneGoesOn : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneGoesOn, WithTheSameFiles) {
   SLOW_WITH_SANITIZERS("balls_in_a_box", "brick_wall", "funnel", "pile_at_rest", "piston", "binary_stars", "hourglass",
-                       "lattice", "pour_into_bowl");
+                       "lattice", "pour_into_bowl", "effusion", "opening_gate", "shaken_tray");
   Scene scene = scene_named(GetParam());
   // They take long.
   if (GetParam() == "funnel") scene.simulate.duration = 0.5;

@@ -1,5 +1,5 @@
 #pragma once
-// What of the bodies a picture shows.
+// Where bodies are in a picture.
 
 #include "overlay/moment.h"
 #include "std.h"
@@ -14,9 +14,5 @@ struct BodyBounds {
 
 /// The bounds of a body that is in front of the camera; for a cylinder that of the box around it. None: it is not.
 optional<BodyBounds> bounds_of(const Moment& moment, Entity body);
-
-/// Whether something lies between the eye and a body's centre: another body, a visible wall or a solid visible
-/// obstacle.
-bool is_hidden(const Moment& moment, Entity body);
 
 }  // namespace carom
