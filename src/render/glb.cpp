@@ -15,6 +15,7 @@
 #include "render/parallel.h"
 #include "render/renderer.h"
 #include "render/still_things.h"
+#include "render/surfaces.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -33,7 +34,7 @@ Eigen::Quaterniond rotation_to(const Vec3& x, const Vec3& y, const Vec3& z) {
   return Eigen::Quaterniond((Eigen::Matrix3d() << x, y, z).finished());
 }
 
-array<float, 4> parts_of(const Eigen::Quaterniond& q) {
+array<float, 4> xyzw(const Eigen::Quaterniond& q) {
   return {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
 }
 
@@ -74,9 +75,9 @@ class GlbBuilder {
     const double radius = scene_.world.radius[body];
     first_scales_.push_back(range.mesh ? Vec3(Vec3::Constant(range.mesh->scale_for(radius) / range.mesh->scale))
                                        : volume.half);
+    const Coat coat{range.color, range.surface};
     file_.add("nodes", {{"name", scene_.roster.name(body)},
-                        {"mesh", range.mesh ? meshes_.file(*range.mesh, range.color)
-                                            : meshes_.volume(volume.shape, range.color)},
+                        {"mesh", range.mesh ? meshes_.file(*range.mesh, coat) : meshes_.volume(volume.shape, coat)},
                         {"translation", floats(scene_.initial.position[body])},
                         {"scale", floats(first_scales_.back())}});
   }
@@ -87,8 +88,9 @@ class GlbBuilder {
     for (const Vec3& vertex : thing.mesh.vertices) extent.include(vertex);
     const Vec3 middle = extent.middle();
     const Mesh mesh = placed(thing.mesh, Vec3::Ones(), -middle);
+    const Coat coat{thing.color, look_of_fixed(scene_, thing.fixed).surface};
     const size_t node = file_.add("nodes", {{"name", thing.name},
-                                            {"mesh", meshes_.single(mesh, thing.color, thing.two_sided, thing.name)},
+                                            {"mesh", meshes_.single(mesh, coat, thing.two_sided, thing.name)},
                                             {"translation", floats(middle)}});
     if (const Entity e = scene_.world.body_count() + Entity(thing.fixed); scene_.world.moves(e))
       moving_.push_back({node, e, middle});
@@ -99,7 +101,7 @@ class GlbBuilder {
     const size_t number = file_.add("cameras", parallel() ? orthographic(view) : perspective(view));
     camera_node_ = file_.add("nodes", {{"name", free_name("camera")},
                                        {"translation", floats(eye_of(camera_))},
-                                       {"rotation", parts_of(rotation_of(camera_))},
+                                       {"rotation", xyzw(rotation_of(camera_))},
                                        {"camera", number}});
   }
 
@@ -155,7 +157,7 @@ class GlbBuilder {
   void add_sun(const string& name, const Vec3& towards, const array<float, 3>& color, double intensity) {
     const Vec3 right = (std::abs(towards.y()) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)).cross(towards).normalized();
     add_light(name, "directional", color, intensity,
-              {{"rotation", parts_of(rotation_to(right, towards.cross(right), towards))}});
+              {{"rotation", xyzw(rotation_to(right, towards.cross(right), towards))}});
   }
 
   /// `node`: where its node is, or how it is turned.
@@ -236,7 +238,7 @@ class GlbBuilder {
       // q and -q are one rotation. Between two of one sign the turn is the shorter one.
       if (turn.dot(before) < 0) turn.coeffs() *= -1;
       places.push_back(floats(eye_of(camera)));
-      turns.push_back(parts_of(turn));
+      turns.push_back(xyzw(turn));
       before = turn;
     }
     add_channel(camera_node_, "translation", motion_.times, places);

@@ -12,6 +12,7 @@
 #include "render/lighting.h"
 #include "render/renderer.h"
 #include "render/still_things.h"
+#include "scene/field.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -32,6 +33,21 @@ Json look(const array<float, 4>& base, bool two_sided, const string& name) {
            {"pbrMetallicRoughness", {{"baseColorFactor", base}, {"metallicFactor", 0}, {"roughnessFactor", 0.6F}}}};
   if (two_sided) out["doubleSided"] = true;
   return out;
+}
+
+/// By which a coat is told from others.
+array<double, 5> key_of(const Coat& coat) {
+  const Surface& surface = coat.surface;
+  return {coat.color.r, coat.color.g, coat.color.b, double(surface.finish.value_or(Finish::plastic)),
+          surface.opacity.value_or(-1)};
+}
+
+/// "#c8413f", "#c8413f glass", "#c8413f, opacity 0.5"
+string text_of(const Coat& coat) {
+  string text = hex_text(coat.color);
+  if (coat.surface.finish) text += " " + string(parts_of(finish_names)[size_t(*coat.surface.finish)]);
+  if (coat.surface.opacity) text += fmt::format(", opacity {}", *coat.surface.opacity);
+  return text;
 }
 
 /// The part of the triangles from `first` on, with the vertices that it uses.
@@ -96,10 +112,19 @@ Json GlbMeshes::primitive(const Mesh& mesh, size_t material) {
   return {{"attributes", attributes}, {"indices", file_.add_corners(mesh.triangles)}, {"material", material}};
 }
 
-size_t GlbMeshes::material(const Color& color, bool two_sided) {
-  const auto c = linear(color);
-  return file_.add_once("materials",
-                        look({c[0], c[1], c[2], 1}, two_sided, hex_text(color) + (two_sided ? ", two-sided" : "")));
+size_t GlbMeshes::material(const Coat& coat, bool two_sided) {
+  const auto c = linear(coat.color);
+  const raster::SurfaceLight light = surface_light(coat.surface, Finish::plastic);
+  Json out = look({c[0], c[1], c[2], light.opacity}, two_sided, text_of(coat) + (two_sided ? ", two-sided" : ""));
+
+  if (coat.surface.finish) {
+    constexpr array<float, 5> roughness = {1, 0.6F, 0.25F, 0.05F, 0.6F};  // by finish
+    out["pbrMetallicRoughness"]["metallicFactor"] = *coat.surface.finish == Finish::metal ? 1 : 0;
+    out["pbrMetallicRoughness"]["roughnessFactor"] = roughness[size_t(*coat.surface.finish)];
+  }
+  if (light.opacity < 1) out["alphaMode"] = "BLEND";
+  if (light.emission > 0) out["emissiveFactor"] = c;
+  return file_.add_once("materials", std::move(out));
 }
 
 size_t GlbMeshes::image(const MeshTexture& picture) {
@@ -124,9 +149,9 @@ size_t GlbMeshes::material(const MeshPart& part, optional<size_t> image, const s
   return file_.add_once("materials", std::move(out));
 }
 
-size_t GlbMeshes::single(const Mesh& mesh, const Color& color, bool two_sided, const string& name) {
+size_t GlbMeshes::single(const Mesh& mesh, const Coat& coat, bool two_sided, const string& name) {
   Json primitives = Json::array();
-  if (mesh.paint.parts.empty()) primitives.push_back(primitive(mesh, material(color, two_sided)));
+  if (mesh.paint.parts.empty()) primitives.push_back(primitive(mesh, material(coat, two_sided)));
 
   map<uint32_t, size_t> images;  // by texture
   size_t first = 0;
@@ -140,36 +165,36 @@ size_t GlbMeshes::single(const Mesh& mesh, const Color& color, bool two_sided, c
       shown = known->second;
     }
 
-    const size_t look = part.colored ? material(part, shown, name) : material(color, two_sided);
+    const size_t look = part.colored ? material(part, shown, name) : material(coat, two_sided);
     primitives.push_back(primitive(part_of(mesh, first, part), look));
     first += size_t{3} * part.triangles;
   }
   return file_.add("meshes", {{"name", name}, {"primitives", std::move(primitives)}});
 }
 
-size_t GlbMeshes::volume(Shape shape, const Color& color) {
-  const auto [known, is_new] = volumes_.try_emplace({shape, Srgb{color.r, color.g, color.b}});
+size_t GlbMeshes::volume(Shape shape, const Coat& coat) {
+  const auto [known, is_new] = volumes_.try_emplace({shape, key_of(coat)});
   if (is_new) {
     const Mesh mesh = shape == Shape::sphere ? round_ball() : shape == Shape::cylinder ? round_cylinder() : unit_box();
     constexpr const char* names[] = {"ball", "cylinder", "box"};
-    known->second = single(mesh, color, false, fmt::format("{} {}", names[size_t(shape)], hex_text(color)));
+    known->second = single(mesh, coat, false, fmt::format("{} {}", names[size_t(shape)], text_of(coat)));
   }
   return known->second;
 }
 
-size_t GlbMeshes::file(const MeshUse& use, const Color& color) {
+size_t GlbMeshes::file(const MeshUse& use, const Coat& coat) {
   array<double, 13> how = {use.center.x(), use.center.y(), use.center.z(), use.scale};
   for (size_t k = 0; k < 9; ++k) how[4 + k] = use.turn[k / 3][ptrdiff_t(k % 3)];
   // A mesh whose parts all have a colour is the same for every body.
-  constexpr Srgb any{-1, -1, -1};
-  const Srgb own{color.r, color.g, color.b};
-  for (const Srgb& of : {any, own})
+  constexpr Key any{-1, -1, -1, -1, -1};
+  const Key own = key_of(coat);
+  for (const Key& of : {any, own})
     if (const auto same = files_.find({use.file, how, use.own_colors, of}); same != files_.end()) return same->second;
   const Mesh mesh = drawn_mesh(use);
   const auto& parts = mesh.paint.parts;
   const bool colored = !parts.empty() && all_of(parts, [](const MeshPart& part) { return part.colored; });
-  const string name = parts.empty() ? "mesh " + hex_text(color) : std::filesystem::path(use.file).stem().string();
-  return files_[{use.file, how, use.own_colors, colored ? any : own}] = single(mesh, color, false, name);
+  const string name = parts.empty() ? "mesh " + text_of(coat) : std::filesystem::path(use.file).stem().string();
+  return files_[{use.file, how, use.own_colors, colored ? any : own}] = single(mesh, coat, false, name);
 }
 
 }  // namespace carom

@@ -143,6 +143,29 @@ TEST(Glb, HasNodesACameraLightsAndSteps) {
   EXPECT_EQ(animation["samplers"][1]["interpolation"], "STEP");
 }
 
+TEST(Glb, HasTheFinishesOfSurfaces) {
+  const vector<Surface> surfaces = {{}, {Finish::metal, nullopt}, {Finish::glass, nullopt}, {Finish::glow, 0.5}};
+  Scene scene;
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    test::add_ball(scene, Vec3(double(i), 0, 0), 0.5, Color{1, 0, 0});
+    scene.roster.bodies[i].surface = surfaces[i];
+  }
+  const Json gltf = json_of(glb(scene, {}));
+
+  const Json& materials = gltf["materials"];
+  ASSERT_EQ(materials.size(), surfaces.size());
+  vector<double> metallic, opacity;
+  for (const Json& material : materials) {
+    metallic.push_back(material["pbrMetallicRoughness"]["metallicFactor"].get<double>());
+    opacity.push_back(material["pbrMetallicRoughness"]["baseColorFactor"][3].get<double>());
+    EXPECT_EQ(material.value("alphaMode", "") == "BLEND", opacity.back() < 1);
+  }
+  EXPECT_EQ(metallic, (vector<double>{0, 1, 0, 0}));
+  EXPECT_EQ(opacity, (vector<double>{1, 1, double{0.2F}, 0.5}));
+  EXPECT_FALSE(materials[1].contains("emissiveFactor"));
+  EXPECT_EQ(materials[3]["emissiveFactor"], Json({1, 0, 0}));
+}
+
 TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   const test::MeshFolder folder;
   test::GltfSquare square{test::data_uri(test::four_opacities)};
