@@ -53,8 +53,8 @@ TEST_P(EveryScene, ShowsSomething) {
   SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "funnel", "pile_at_rest", "binary_stars",
                        "hourglass");
   const Scene scene = load(GetParam());
-  if (!scene.output.pictures()) return;
-  ASSERT_TRUE(scene.camera) << "pictures without a camera";
+  // One that frames the motion shows it: seen_test.cpp.
+  if (!scene.output.pictures() || !scene.camera) return;
   const Played run = play(GetParam(), {scene.simulate.duration / 2});
 
   Renderer renderer(run.scene, {192, 108}, 1);

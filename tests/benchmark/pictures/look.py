@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Ten scenes as drawn by carom and, to the right of it, by POV-Ray with radiosity: one by one and on one sheet.
 
-    look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE...]
+    look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE[=TIME]...]
 
-Makes SCENE_carom.png and SCENE_povray.png of each scene in the output folder, and sheet.png with two scenes a row.
+Of any other scene the time of the picture is given, in s. Makes SCENE_carom.png and SCENE_povray.png of each scene in the output folder, and sheet.png with two scenes a row.
 """
 
 import math
@@ -42,18 +42,19 @@ def pictures(carom, scenes, folder, scene, time, *settings):
     fps = 1 / time if time else 1
     settings = [*settings] + [f'output.frames.{key}={value}' for key, value in
                 [('fps', repr(fps)), ('from', repr(time)), ('until', repr(time)), ('size', f'[{SIZE[0]},{SIZE[1]}]')]]
-    settings += [f'output.gltf.fps={fps!r}', f'simulate.duration={time!r}']
+    settings += [f'output.gltf.fps={fps!r}']
     run(carom, 'run', os.path.join(scenes, scene + '.yaml'), '--only', 'frames,gltf', '--force', '-o', work,
         *[word for setting in settings for word in ('--set', setting)])
     frames = os.path.join(work, 'frames')
     os.replace(os.path.join(frames, sorted(os.listdir(frames))[0]), os.path.join(folder, f'{scene}_carom.png'))
     with open(os.path.join(work, 'scene.yaml'), encoding='utf-8') as file:
-        camera = yaml.safe_load(file)['camera']
-    distance = math.dist(*[[float(x) for x in camera[key]] for key in ('eye', 'target')])
+        resolved = yaml.safe_load(file)
+    camera = resolved.get('camera', {})
+    distance = math.dist(*[[float(x) for x in camera[key]] for key in ('eye', 'target')]) if 'eye' in camera else 0
     pov, linear = os.path.join(folder, scene + '.pov'), os.path.join(folder, scene + '_linear.png')
     with open(pov, 'w', encoding='utf-8') as file:
         subprocess.run([os.path.join(HERE, 'povray_scene.py'), os.path.join(work, 'animation.glb'), repr(time),
-                        repr(distance)], stdout=file, check=True)
+                        repr(distance), resolved.get('look', 'studio')], stdout=file, check=True)
     run('povray', f'+I{pov}', f'+O{linear}', f'+W{SIZE[0]}', f'+H{SIZE[1]}', '+FN16', 'File_Gamma=1.0', '+A0.1', '+AM2',
         '+R3', '-D', '-GA')
     ffmpeg('-i', linear, '-vf', f"format=rgb48le,lutrgb=r='{CODED}':g='{CODED}':b='{CODED}',format=rgb24",
@@ -73,16 +74,19 @@ def sheet(folder, scenes):
 
 def main():
     if len(sys.argv) < 4:
-        sys.exit('usage: look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE...]')
+        sys.exit('usage: look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE[=TIME]...]')
     carom, scenes, folder = sys.argv[1:4]
     os.makedirs(folder, exist_ok=True)
-    chosen = sys.argv[4:] or list(SCENES)
-    if unknown := set(chosen) - set(SCENES):
-        sys.exit(f'look: no scene {", ".join(sorted(unknown))}; the scenes are {", ".join(SCENES)}')
-    for scene in chosen:
+    chosen = dict(SCENES) if len(sys.argv) == 4 else {}
+    for word in sys.argv[4:]:
+        scene, _, time = word.partition('=')
+        if not time and scene not in SCENES:
+            sys.exit(f'look: {scene} needs a time, as in {scene}=1.5; those of {", ".join(SCENES)} are known')
+        chosen[scene] = (float(time),) if time else SCENES[scene]
+    for scene, how in chosen.items():
         print(scene, flush=True)
-        pictures(carom, scenes, folder, scene, *SCENES[scene])
-    sheet(folder, chosen)
+        pictures(carom, scenes, folder, scene, *how)
+    sheet(folder, list(chosen))
 
 
 if __name__ == '__main__':

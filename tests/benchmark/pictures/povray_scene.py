@@ -1,22 +1,24 @@
 #!/usr/bin/python3
 """The scene of an animation.glb, at one of its keyframes, as a scene of POV-Ray with radiosity.
 
-    povray_scene.py ANIMATION.glb TIME DISTANCE > SCENE.pov
+    povray_scene.py ANIMATION.glb TIME DISTANCE LOOK > SCENE.pov
 
-A picture of it shows what carom's approximates: the same camera, bodies, surfaces, key light and sky, with light that is
-passed on from surface to surface. Balls, boxes and cylinders are exact, and planes are endless. Colours are linear, and
-half as bright as they are, so that 16 bits hold what is brighter than white: see look.py.
+A picture of it shows what carom's approximates: the same camera, bodies, surfaces, key light and backdrop, with light
+that is passed on from surface to surface. Balls, boxes and cylinders are exact, and planes are endless. Colours are
+linear, and half as bright as they are, so that 16 bits hold what is brighter than white: see look.py. Light from behind,
+outlines and what is flat by choice are carom's alone.
 """
 
 import json
 import math
+import os
+import re
 import struct
 import sys
 
-# As in src/render/lighting.cpp and src/raster/light.inc.
+LOOKS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../../src/scene/look')
+# As in src/render/lighting.h.
 SOFTNESS = 0.03  # tangent of half the angle of the key light
-AMBIENT = (0.26, 0.28, 0.31)
-HORIZON, ABOVE, BELOW = (0.66, 0.69, 0.72), (0.30, 0.38, 0.47), (0.36, 0.37, 0.39)
 USUAL = math.pi * 683  # lux of a light of intensity 1
 EXPOSURE = 0.5
 
@@ -54,6 +56,24 @@ def fresnel(cosine):
     g = math.sqrt(1.5**2 - 1 + cosine**2)
     a, b = (g - cosine) / (g + cosine), (cosine * (g + cosine) - 1) / (cosine * (g - cosine) + 1)
     return 0.5 * a**2 * (1 + b**2)
+
+
+def linear(srgb):
+    """Of 0xrrggbb."""
+    parts = [(srgb >> shift & 255) / 255 for shift in (16, 8, 0)]
+    return [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055)**2.4 for c in parts]
+
+
+def look_of(name):
+    """The fields of a look that lights a scene, from the table of carom's looks."""
+    with open(LOOKS + '.h', encoding='utf-8') as file:
+        names = re.search(r'look_names = "([^"]+)"', file.read())[1].split('|')
+    with open(LOOKS + '.cpp', encoding='utf-8') as file:
+        table = file.read().split('.bodies')[1 + names.index(name)]
+    colors = {key: linear(int(value, 16)) for key, value in re.findall(r'\.(\w+) = (0x[0-9a-f]{6})\b', table)}
+    numbers = {key: float(value) for key, value in re.findall(r'\.(\w+) = ([0-9.]+),', table)}
+    squares = 'FloorPattern::squares' in table
+    return {**colors, **numbers, 'seamless': '.seamless = true' in table, 'squares': squares}
 
 
 def turned(q, v):
@@ -110,10 +130,11 @@ class Model:
 class Picture:
     """Lines of a scene of POV-Ray."""
 
-    def __init__(self, model):
+    def __init__(self, model, style):
         self.model = model
-        self.planes = []  # point, normal, colour
-        self.reaches = []  # of the bodies, m
+        self.style = style
+        self.planes = []  # point, normal, colour, opacity
+        self.places, self.reaches = [], []  # of the bodies, m
         self.meshes = {}
         self.looks = set()
         self.lines = []
@@ -128,6 +149,9 @@ class Picture:
         for node in self.model.nodes:
             if 'mesh' in node:
                 self.add_thing(node)
+        if target_distance == 0:
+            target_distance = sum(math.dist(p, self.eye) for p in self.places) / max(len(self.places), 1)
+        self.end_backdrop_as_the_floor_does()
         self.add_planes(target_distance)
         for node in self.model.nodes:
             if 'extensions' in node:
@@ -139,7 +163,7 @@ class Picture:
         sky = ''.join(f'    [{0.5 + 0.5 * s * u:.4f} {rgb(scaled(EXPOSURE, self.sky(s, u)))}]\n'
                       for s, u in [(-1, 1 - i / 16) for i in range(16)] + [(1, i / 16) for i in range(17)])
         return ['#version 3.7;',
-                'global_settings {', '  assumed_gamma 1', '  max_trace_level 5',
+                'global_settings {', '  assumed_gamma 1', '  max_trace_level 12',
                 '  radiosity { pretrace_start 0.08 pretrace_end 0.01 count 120 nearest_count 8 error_bound 0.5',
                 '    recursion_limit 2 low_error_factor 0.6 gray_threshold 0 minimum_reuse 0.012 brightness 1 }', '}',
                 'camera {', '  perspective',
@@ -151,27 +175,59 @@ class Picture:
                 f'  pigment {{ gradient y color_map {{\n{sky}  }} translate -0.5 * y scale 2 }}',
                 f'  finish {{ Bare }} scale 1e5 translate {text(self.eye)} }}',
                 'sphere { 0, 1 hollow no_shadow no_image no_reflection',
-                f'  pigment {{ {rgb(scaled(EXPOSURE, AMBIENT))} }} finish {{ Bare }} scale 9e4 translate {text(self.eye)} }}',
+                f'  pigment {{ {rgb(scaled(EXPOSURE, self.style["ambient"]))} }} finish {{ Bare }} scale 9e4 translate {text(self.eye)} }}',
                 '#declare Matt = finish { ambient 0 diffuse 1 }',
                 '#declare Glossy = finish { ambient 0 diffuse 1 specular 0.35 roughness 1 / 64',
-                '  reflection { 0, 1 fresnel on } conserve_energy }']
+                '  reflection { 0, 1 fresnel on } conserve_energy }',
+                '#declare Clear = finish { ambient 0 diffuse 0.5 specular 1 roughness 1 / 64',
+                '  reflection { 0.04, 1 falloff 5 } }',
+                '#declare Metal = finish { ambient 0 diffuse 0.15 specular 0.9 roughness 1 / 64 metallic',
+                '  reflection { 0.85 metallic } }']
 
-    @staticmethod
-    def sky(side, up):
+    def sky(self, side, up):
         t = min(max(up / 0.75, 0), 1)
         share = t * t * (3 - 2 * t)
-        return add(scaled(1 - share, HORIZON), scaled(share, ABOVE if side > 0 else BELOW))
+        return add(scaled(1 - share, self.style['horizon']), scaled(share, self.style['above' if side > 0 else 'below']))
+
+    def end_backdrop_as_the_floor_does(self):
+        """As in src/render/surfaces.cpp."""
+        if not self.style['seamless'] or len(self.planes) != 1:
+            return
+        _, normal, color, _ = self.planes[0]
+        light = self.style['ambient']
+        for node in self.model.nodes:
+            if 'extensions' in node and (lamp := self.lamp(node))['type'] == 'directional':
+                towards = turned(node.get('rotation', [0, 0, 0, 1]), [0, 0, 1])
+                light = add(light, scaled(max(dot(normal, towards), 0) * lamp['intensity'] / USUAL, lamp['color']))
+        self.style['horizon'] = [(1 - self.spot()) * c * x for c, x in zip(color, light)]
+
+    def lamp(self, node):
+        lights = self.model.json['extensions']['KHR_lights_punctual']['lights']
+        return lights[node['extensions']['KHR_lights_punctual']['light']]
+
+    def spot(self):
+        """What a floor loses of its light far away: only in the light that a scene has by default."""
+        return self.style['spot'] if self.by_default() else 0
+
+    def by_default(self):
+        lamps = [node for node in self.model.nodes if 'extensions' in node]
+        return len(lamps) == 1 and self.lamp(lamps[0])['type'] == 'directional' and \
+            all(abs(a - b * self.style['key_strength']) < 1e-3
+                for a, b in zip(self.lamp(lamps[0])['color'], self.style['key']))
 
     def add_thing(self, node):
         name, material, places, normals, triangles = self.model.mesh(node)
         color = material['pbrMetallicRoughness']['baseColorFactor'][:3]
         at, size = list(node.get('translation', [0, 0, 0])), list(node.get('scale', [1, 1, 1]))
-        look = self.look(color)
+        look = self.look(material)
         kind = name.split(' ')[0] if ' ' in name else 'still'
+        if kind != 'still':
+            self.places.append(at)
         if max(size) == 0:
             return
         if kind == 'still' and all(n == normals[0] for n in normals) and not material.get('doubleSided'):
-            self.planes.append((add(at, places[0]), list(normals[0]), color))
+            opacity = material['pbrMetallicRoughness']['baseColorFactor'][3]
+            self.planes.append((add(at, places[0]), list(normals[0]), color, opacity))
             return
         if kind == 'ball':
             self.reaches.append(size[0])
@@ -189,16 +245,22 @@ class Picture:
             self.lines.append(f'object {{ {self.mesh_name(node["mesh"], places, normals, triangles)} scale {text(size)} '
                               f'translate {text(at)} {look} }}')
 
-    def look(self, color):
-        """The name of the texture of a colour: what the surface mirrors does not reach its matt part."""
-        name = 'Look' + ''.join(f'_{round(1e6 * c)}' for c in color)
+    def look(self, material):
+        """The name of the texture of a surface: what the surface mirrors does not reach its matt part."""
+        *color, opacity = material['pbrMetallicRoughness']['baseColorFactor']
+        metal, glows = material['pbrMetallicRoughness']['metallicFactor'] == 1, 'emissiveFactor' in material
+        name = 'Look' + '_'.join(f'{round(1e6 * c)}' for c in (*color, opacity, metal, glows))
         if name not in self.looks:
             self.looks.add(name)
             # The pattern aoi is 1 - angle / pi.
             angles = [math.pi / 2 * (1 - i / 16) for i in range(17)]
-            rows = ''.join(f'[{1 - a / math.pi:.6f} {rgb(scaled(1.04 - fresnel(math.cos(a)), color))}]' for a in angles)
-            self.lines.append(f'#declare {name} = texture {{ pigment {{ aoi color_map {{ {rows} }} }} finish {{ Glossy }} }}')
-        return f'texture {{ {name} }} interior {{ ior 1.5 }}'
+            rows = ''.join(f'[{1 - a / math.pi:.6f} rgbt <{", ".join(f"{x:.9g}" for x in seen)}, {1 - opacity:.6g}>]'
+                           for a in angles for seen in [scaled(1.04 - fresnel(math.cos(a)), color)])
+            pigment = f'pigment {{ {rgb(color)} }}' if metal else f'pigment {{ aoi color_map {{ {rows} }} }}'
+            # Light is not refracted, as in carom, whose walls are thin.
+            finish = 'Metal' if metal else 'Glossy emission 0.5' if glows else 'Clear' if opacity < 1 else 'Glossy'
+            self.lines.append(f'#declare {name} = texture {{ {pigment} finish {{ {finish} }} }}')
+        return f'texture {{ {name} }}' + (' interior { ior 1.5 }' if opacity == 1 and not metal else '')
 
     def mesh_name(self, number, places, normals, triangles):
         if number not in self.meshes:
@@ -219,7 +281,9 @@ class Picture:
 
     def add_planes(self, distance):
         side = self.square(distance)
-        for i, (point, normal, color) in enumerate(self.planes):
+        middle = scaled(1 / max(len(self.places), 1), [sum(p[k] for p in self.places) for k in range(3)])
+        reach = 0.6 * max([distance, *(math.dist(p, self.eye) for p in self.places)])
+        for i, (point, normal, color, opacity) in enumerate(self.planes):
             height = dot(normal, point)
             # carom shows planes from their free side alone, and they take no light from other things.
             if dot(normal, self.eye) <= height:
@@ -229,16 +293,22 @@ class Picture:
             up = cross(normal, right)
             rows = ', '.join(f'{x:.9g}' for x in [*right, *normal, *up, *scaled(height, normal)])
             others = ' '.join(f'plane {{ {text(scaled(-1, n))}, {-dot(n, p) + 1e-9:.9g} }}'
-                              for k, (p, n, _) in enumerate(self.planes) if k != i)
+                              for k, (p, n, *_) in enumerate(self.planes) if k != i)
             cut = f'clipped_by {{ intersection {{ {others} }} }}' if others.count('plane') > 1 else \
                   f'clipped_by {{ {others} }}' if others else ''
-            self.lines.append(
-                f'plane {{ {text(normal)}, {height:.9g} no_shadow {cut} finish {{ Matt }}\n  pigment {{ checker '
-                f'{rgb(scaled(0.9, color))}, {rgb(color)} translate 0.5 * y scale {side:.9g} matrix <{rows}> }} }}')
+            dark, seen = 1 - self.style.get('contrast', 0), f'rgbt <%s, {1 - opacity:.6g}>'
+            shown = [seen % ', '.join(f'{x:.9g}' for x in scaled(share, color)) for share in (dark, 1, 1 - self.spot())]
+            if self.style['squares']:
+                pigment = f'checker {shown[0]}, {shown[1]} translate 0.5 * y scale {side:.9g} matrix <{rows}>'
+            else:
+                # As in src/raster/ground.inc.
+                pigment = f'function {{ 1 / (1 + x * x + y * y + z * z) }} color_map {{ [0 {shown[2]}] [1 {shown[1]}] }}' \
+                          f' scale {reach:.9g} translate {text(middle)}'
+            self.lines.append(f'plane {{ {text(normal)}, {height:.9g} no_shadow {cut} finish {{ Matt }}\n'
+                              f'  pigment {{ {pigment} }} }}')
 
     def add_light(self, node, distance):
-        lights = self.model.json['extensions']['KHR_lights_punctual']['lights']
-        light = lights[node['extensions']['KHR_lights_punctual']['light']]
+        light = self.lamp(node)
         if light['type'] == 'directional':
             towards = turned(node.get('rotation', [0, 0, 0, 1]), [0, 0, 1])
             at, radiance = add(self.eye, scaled(1e4 * distance, towards)), light['intensity'] / USUAL
@@ -257,10 +327,11 @@ class Picture:
 
 
 def main():
-    if len(sys.argv) != 4:
-        sys.exit('usage: povray_scene.py ANIMATION.glb TIME DISTANCE, of the camera from its target')
+    if len(sys.argv) != 5:
+        sys.exit('usage: povray_scene.py ANIMATION.glb TIME DISTANCE LOOK; the distance is that of the camera from its target;'
+                 ' 0: from the bodies')
     model = Model(sys.argv[1], float(sys.argv[2]))
-    print('\n'.join(Picture(model).scene(float(sys.argv[3]))))
+    print('\n'.join(Picture(model, look_of(sys.argv[4])).scene(float(sys.argv[3]))))
 
 
 if __name__ == '__main__':
