@@ -75,7 +75,7 @@ class CameraDecoder {
     const Node* path = view_.given("path");
     plan_.orthographic = keys_.orthographic;
     if (keys_.orbit) plan_.orbit = keys_.orbit->period;
-    // Without a place it is the camera that frames the motion.
+    // A round or a projection alone is one of the camera that frames the motion.
     const array others = {"eye", "target", "path", "follow"};
     plan_.fit = keys_.fit || ranges::none_of(others, [&](const char* key) { return view_.given(key) != nullptr; });
     if (keys_.fit && keys_.fit->on != nullptr) fit_on(*keys_.fit->on);

@@ -336,7 +336,7 @@ constexpr Field stop_fields[] = {
 };
 
 constexpr Field camera_fields[] = {
-    row<CameraKeys, &CameraKeys::eye>("eye", "Position of the camera; with follow at time 0.", "[0, 3, -5]", {.unit = "m", .one_of = "eye|fit|path", .needed = true, .spared_by = "up|fov|fov_axis|follow|orbit|projection", .title = "Position of the camera", .with = "target"}),
+    row<CameraKeys, &CameraKeys::eye>("eye", "Position of the camera; with follow at time 0.", "[0, 3, -5]", {.unit = "m", .one_of = "eye|fit|path", .needed = true, .spared_by = "follow|orbit|projection", .title = "Position of the camera", .with = "target"}),
     row_if_given<CameraKeys, &CameraKeys::target>("target", "Point that the camera looks at; with follow at time 0.", "[0, 0, 0]", {.unit = "m", .one_of = "target|fit|path", .spared_by = "follow", .with = "eye"}),
     row<CameraKeys, &CameraKeys::up>("up", "Direction that is up in the picture.", "[0, 0, 1]", {.type = Type::direction, .title = "Up in the picture"}),
     row<CameraKeys, &CameraKeys::fov>("fov", "Field of view, the full angle along fov_axis.", "30", {.unit = "degrees", .range = {0, 180, true, true}, .title = "Field of view"}),

@@ -253,8 +253,9 @@ class Resolver {
   void camera() {
     if (root_.find("camera") == nullptr) return;
     Overrides overrides;
-    // Near and far follow from the bodies' size, as the eye does.
-    if (const auto& follow = scene_.camera->follow; follow && !follow->has_eye) overrides = {{"near", ""}, {"far", ""}};
+    // Near and far follow from the bodies' size and motion, as the eye does.
+    const auto& follow = scene_.camera->follow;
+    if (scene_.camera->fit || (follow && !follow->has_eye)) overrides = {{"near", ""}, {"far", ""}};
     const View view = scene_part(root_, "camera");
     for (const char* const part : {"fit", "orbit"})
       if (view.given(part) != nullptr) overrides[part] = flow(view.part(part));

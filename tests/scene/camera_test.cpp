@@ -61,8 +61,9 @@ TEST(CameraPlan, KeyframesTakeTheCamerasAngle) {
 
 TEST(CameraPlan, ResolvedItIsTheSamePlan) {
   for (const char* camera :
-       {"{fit: motion, fov: 30}", "{fit: {on: [red, gas.1, floor]}, orbit: {period: 3}}",
-        "{follow: red, projection: orthographic}", "{follow: red}", "{follow: red, eye: [0, 0, 9], near: 1}",
+       {"{fit: motion, fov: 30}", "{orbit: {period: 3}}", "{projection: orthographic}",
+        "{fit: {on: [red, gas.1, floor]}, orbit: {period: 3}}", "{follow: red, projection: orthographic}",
+        "{follow: red}", "{follow: red, eye: [0, 0, 9], near: 1}",
         "{path: [{at: 0, eye: [0, 3, 5], target: [0, 0, 0]}, {at: 1, eye: [0, 3, 4], target: [0, 0, 0]}]}"}) {
     const Scene scene = load_text(bodies + "camera: " + camera + "\n"), again = load_text(scene.resolved);
     EXPECT_EQ(again.resolved, scene.resolved);
