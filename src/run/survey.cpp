@@ -42,7 +42,16 @@ ShownTime shown_time(const Scene& scene) {
 
 }  // namespace
 
-Framing::Framing(span<MovingCamera* const> cameras) : timeline_(duration_of(cameras)) {
+int Surveying::add(const Ticks& ticks) {
+  end_ = max(end_, ticks.at(ticks.last()));
+  return timeline_.add(ticks);
+}
+
+void Surveying::advance() {
+  more_ = timeline_.advance() && timeline_.time() <= end_;
+}
+
+Framing::Framing(span<MovingCamera* const> cameras) : Surveying(duration_of(cameras)) {
   for (MovingCamera* camera : cameras) {
     if (!camera->frames_motion()) continue;
     const Scene& scene = camera->scene();
@@ -54,15 +63,10 @@ Framing::Framing(span<MovingCamera* const> cameras) : timeline_(duration_of(came
 
     const ShownTime shown = shown_time(scene);
     const int64_t count = shown.from < shown.until ? worthwhile_instants(scene.world.body_count()) : 1;
-    const int stream = timeline_.add(Ticks::even(count, shown.from, shown.until));
+    const int stream = add(Ticks::even(count, shown.from, shown.until));
     framed_.push_back({&scene, MotionSamples(scene), stream, {camera}});
-    end_ = max(end_, shown.until);
   }
   if (any()) advance();
-}
-
-void Framing::advance() {
-  more_ = timeline_.advance() && timeline_.time() <= end_;
 }
 
 void Framing::record(const Simulator& simulator) {
@@ -71,7 +75,7 @@ void Framing::record(const Simulator& simulator) {
 
 void Framing::sample(Simulator& simulator) {
   for (Framed& framed : framed_)
-    if (timeline_.due(framed.stream)) framed.samples.add(simulator.state());
+    if (due(framed.stream)) framed.samples.add(simulator.state());
   advance();
 }
 
@@ -82,22 +86,14 @@ void Framing::finish() {
 }
 
 Charting::Charting(span<FilmChart* const> charts)
-    : charts_(charts.begin(), charts.end()), timeline_(charts.empty() ? 0 : charts.front()->scene().simulate.duration) {
-  for (const FilmChart* chart : charts_) {
-    const Ticks ticks = chart->instants();
-    streams_.push_back(timeline_.add(ticks));
-    end_ = max(end_, ticks.at(ticks.last()));
-  }
+    : Surveying(charts.empty() ? 0 : charts.front()->scene().simulate.duration), charts_(charts.begin(), charts.end()) {
+  for (const FilmChart* chart : charts_) streams_.push_back(add(chart->instants()));
   if (any()) advance();
-}
-
-void Charting::advance() {
-  more_ = timeline_.advance() && timeline_.time() <= end_;
 }
 
 void Charting::sample(Simulator& simulator) {
   for (size_t i = 0; i < charts_.size(); ++i)
-    if (timeline_.due(streams_[i])) charts_[i]->take(simulator.state());
+    if (due(streams_[i])) charts_[i]->take(simulator.state());
   advance();
 }
 
