@@ -6,6 +6,7 @@ import povray_scene as pov
 
 
 def write_povray(scene, path):
+    style = pov.look_of('studio')
     eye, target = scene['eye'], scene['target']
     ahead = pov.unit(pov.add(target, pov.scaled(-1, eye)))
     right = pov.unit(pov.cross(ahead, [0, 1, 0]))
@@ -21,12 +22,12 @@ def write_povray(scene, path):
 global_settings {{ assumed_gamma 1 }}
 camera {{ perspective location {pov.text(eye)} direction {pov.text(ahead)}
   right {pov.text(pov.scaled(wide, right))} up {pov.text(pov.scaled(tall, up))} }}
-background {{ {pov.rgb(pov.HORIZON)} }}
+background {{ {pov.rgb(style['horizon'])} }}
 light_source {{ {pov.text(pov.scaled(away, towards))}, {pov.rgb(scene['light'])}
   area_light {pov.text(pov.scaled(across, side))}, {pov.text(pov.scaled(across, pov.cross(towards, side)))}, 5, 5
   adaptive 1 jitter circular orient }}
-#default {{ finish {{ ambient {pov.rgb(pov.AMBIENT)} diffuse 1 }} }}
-plane {{ y, 0 pigment {{ checker {pov.rgb(scene['floor'])}, {pov.rgb(pov.scaled(0.9, scene['floor']))} scale 0.5 }} }}
+#default {{ finish {{ ambient {pov.rgb(style["ambient"])} diffuse 1 }} }}
+plane {{ y, 0 pigment {{ {pov.rgb(scene['floor'])} }} }}
 ''')
         looks = {}
         for center, radius, color in scene['balls']:
@@ -34,5 +35,5 @@ plane {{ y, 0 pigment {{ checker {pov.rgb(scene['floor'])}, {pov.rgb(pov.scaled(
             if name is None:
                 name = looks[tuple(color)] = f'Look{len(looks)}'
                 file.write(f'#declare {name} = texture {{ pigment {{ {pov.rgb(color)} }} '
-                           f'finish {{ ambient {pov.rgb(pov.AMBIENT)} diffuse 1 specular 0.35 roughness 1 / 64 }} }}\n')
+                           f'finish {{ ambient {pov.rgb(style["ambient"])} diffuse 1 specular 0.35 roughness 1 / 64 }} }}\n')
             file.write(f'sphere {{ {pov.text(center)}, {radius:.9g} texture {{ {name} }} }}\n')
