@@ -204,9 +204,11 @@ class ViewPlanner {
         ++there;
         kept += frustum.has(samples_.center(k, i), eye(k));
       }
+
       instants += there > there_before;
       shown += kept > kept_before;
     }
+
     plan.kept = there > 0 ? double(kept) / double(there) : 1;
     plan.shown = instants > 0 ? double(shown) / double(instants) : 1;
   }

@@ -12,7 +12,6 @@
 #include "render/lighting.h"
 #include "render/renderer.h"
 #include "render/still_things.h"
-#include "scene/field.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -45,7 +44,7 @@ array<double, 5> key_of(const Coat& coat) {
 /// "#c8413f", "#c8413f glass", "#c8413f, opacity 0.5"
 string text_of(const Coat& coat) {
   string text = hex_text(coat.color);
-  if (coat.surface.finish) text += " " + string(parts_of(finish_names)[size_t(*coat.surface.finish)]);
+  if (coat.surface.finish) text += " " + string(name_of(*coat.surface.finish));
   if (coat.surface.opacity) text += fmt::format(", opacity {}", *coat.surface.opacity);
   return text;
 }

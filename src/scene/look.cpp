@@ -1,6 +1,7 @@
 // Palettes keep neighbours apart in print: each colour differs from the next in lightness too.
 #include "scene/look.h"
 
+#include "scene/field.h"
 #include "std.h"
 
 namespace carom {
@@ -133,6 +134,10 @@ const LookStyle& style_of(SceneLook look) {
 Color body_color(SceneLook look, size_t i) {
   const auto& palette = style_of(look).bodies;
   return from_rgb(palette[i % palette.size()]);
+}
+
+string_view name_of(Finish finish) {
+  return parts_of(finish_names)[size_t(finish)];
 }
 
 }  // namespace carom

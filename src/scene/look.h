@@ -41,6 +41,8 @@ enum class Finish : uint8_t { matte, plastic, metal, glass, glow };
 // In the order of Finish.
 inline constexpr string_view finish_names = "matte|plastic|metal|glass|glow";
 
+string_view name_of(Finish finish);
+
 /// The surface of a thing in pictures.
 struct Surface {
   optional<Finish> finish;   // none: plastic; of a plane matte; of a room's sides glass, its floor matte

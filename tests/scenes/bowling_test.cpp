@@ -70,8 +70,8 @@ TEST(TwoBowlingBalls, CommentHasTheApproachSpeedToTwelveDigits) {
   EXPECT_NEAR(stated("two_bowling_balls", "they approach at v sqrt(2) = "), v * sqrt(2), 1e-15);
 }
 
-TEST(TwoBowlingBalls, ComeFromBeyondTheLeftEdgeAndFromBelowThePicture) {
-  const Played run = play("two_bowling_balls");
+TEST(BookBowlingBalls, ComeFromBeyondTheLeftEdgeAndFromBelowThePicture) {
+  const Played run = play("book_bowling_balls");
   const Camera& camera = *run.scene.camera;
   const Size size = run.scene.output.video->size;
   EXPECT_EQ(size.width, size.height);  // the chapter's aspect
