@@ -39,13 +39,14 @@ double WallThickness::depth(size_t i, double side, const State& state) const {
   for (Entity body = 0; body < state.position.size(); ++body) {
     if (is_gone(state, body)) continue;
     const Vec3 way = state.position[body] - wall.center;
-    const double reach = volume_now(scene_.world, state, body).reach();
+    const double reach = volume_now(scene_.world, state, body).reach(), above = side * wall.normal.dot(way);
+    if (above - reach >= depth || above <= -reach) continue;
 
     // Of a ball beyond an edge, the part that the wall's thickness could meet.
     const double beyond = hypot(max(std::abs(wall.right.dot(way)) - wall.half_width, 0.0),
                                 max(std::abs(wall.up.dot(way)) - wall.half_height, 0.0));
     if (beyond >= reach) continue;
-    const double half = sqrt(reach * reach - beyond * beyond), above = side * wall.normal.dot(way);
+    const double half = sqrt(reach * reach - beyond * beyond);
     if (above > -half) depth = max(min(depth, above - half), least);
   }
   return depth;
