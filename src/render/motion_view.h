@@ -58,8 +58,6 @@ class MotionView {
     size_t instant, body;  // numbers in the samples
   };
   const vector<Strike>& strikes() const { return strikes_; }
-  const MotionSamples& samples() const { return samples_; }
-  const Scene& scene() const { return scene_; }
   /// Whether a body is in scope at an instant.
   bool is_in(size_t scope, size_t instant, size_t i) const {
     return scope_[instant * samples_.bodies().size() + i] <= scope;
