@@ -3,7 +3,8 @@
 
     look.py CAROM SCENES_FOLDER OUTPUT_FOLDER [SCENE[=TIME]...]
 
-Of any other scene the time of the picture is given, in s. Makes SCENE_carom.png and SCENE_povray.png of each scene in the output folder, and sheet.png with two scenes a row.
+Of any other scene the time of the picture is given, in s. Makes SCENE_carom.png and SCENE_povray.png of each scene in the
+output folder, and sheet.png with two scenes a row.
 """
 
 import math
