@@ -4,7 +4,7 @@
 bench_packages=libbenchmark-dev
 count_packages=valgrind
 peer_packages='libbullet-dev libode-dev libmujoco-dev liblammps-dev libbox2d-dev'
-picture_packages='povray python3-vtk9 xvfb xauth libgl1-mesa-dri'
+picture_packages='povray python3-vtk9 python3-numpy xvfb xauth libgl1-mesa-dri'
 
 bench_usage() {
   cat << 'END'
