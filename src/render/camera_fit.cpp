@@ -29,7 +29,8 @@ constexpr double some_kept = 0.35, nearly_all_kept = 0.95, worth_keeping = 0.15;
 constexpr double top_speed = 1, top_acceleration = 2;
 
 constexpr array elevations = {slight_elevation, 30.0, 45.0, 60.0, 75.0, 85.0};  // degrees
-constexpr size_t flat_from = 1;                                                 // of a flat motion
+// Of a flat motion, from and to; of an upright one. A view along an upright motion would show little of it.
+constexpr size_t flat_from = 1, flat_to = elevations.size(), upright_to = 4;
 /// A steeper view of a flat motion shows bodies apart, unless they become smaller than so.
 constexpr double worth_height = 0.95;
 /// Fewer are known only of very many bodies, which no camera goes along with.
@@ -82,7 +83,8 @@ class ViewPlanner {
   /// Goes up until nothing is hidden. If all hide something, the lowest elevation that hides about as little as any.
   void find_best() {
     Hidden least_hidden{2};
-    for (size_t i = first_elevation(); i < elevations.size(); ++i) {
+    const size_t first = first_elevation(), to = first < flat_from ? upright_to : flat_to;
+    for (size_t i = first; i < to; ++i) {
       Plan plan = plan_from(elevations[i]);
       Hidden hidden = hidden_in(plan.views);
       if (!hidden.none() && hidden.share + may_be_hidden >= least_hidden.share) continue;

@@ -14,11 +14,11 @@ namespace carom {
 /// It stands still if bodies are then at least 4.5 % as high as the picture as they collide. Else it goes along, if
 /// that shows them larger. Its path is the nearest to them that is as slow as a hand would be: in a second of film it
 /// pans by at most the picture's height, and its distance changes by at most the factor e. It gets to these speeds in
-/// half a second. If bodies are smaller than a fiftieth even so, the hardest collisions alone are framed, as many as
-/// can be.
+/// half a second. If bodies are smaller than a fiftieth even so, the collisions around the middle of all impulses alone
+/// are framed, as many as can be.
 ///
-/// It looks from the lowest of four elevations from which no fixed thing hides what happens. If all do, these things
-/// are to be faded. It is the same for any order of bodies.
+/// It looks from the lowest of some elevations from which no fixed thing hides what happens. If all do, these things are
+/// to be faded. It is the same for any order of bodies.
 CameraViews frame_views(const Scene& scene, const MotionSamples& samples, Size size, double pace);
 
 /// Collects a motion instant by instant, and frames it.

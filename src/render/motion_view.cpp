@@ -71,30 +71,47 @@ MotionView::MotionView(const Scene& scene, const MotionSamples& samples, double 
       anchors_(anchors_of(scene)),
       is_of_some_(scene.camera && !scene.camera->fit_on.empty()) {
   find_departures();
-  find_scopes(pace, share < 1 ? least_impulse(share) : 0);
+  find_scopes(pace, share < 1 ? place_of(share) : Place{});
   vector<double> radii;
   for (const Entity body : samples.bodies()) radii.push_back(scene.world.radius[body]);
   if (!radii.empty()) room_ = room_alongside * median(std::move(radii));
 }
 
-/// Of the collisions that count (N s).
-double MotionView::least_impulse(double share) const {
-  vector<double> impulses;
+/// The ball around the middle of what happens that has a share of all impulses.
+MotionView::Place MotionView::place_of(double share) const {
+  struct Weighed {
+    Vec3 at;
+    double impulse;
+  };
+  vector<Weighed> strikes;
+  double all = 0;
   for (size_t k = 0; k < samples_.instants(); ++k)
     for (size_t i = 0; i < samples_.bodies().size(); ++i)
-      if (samples_.impulse(k, i) >= 0) impulses.push_back(samples_.impulse(k, i));
-  ranges::sort(impulses, std::greater());
-  double all = 0, counted = 0;
-  for (const double impulse : impulses) all += impulse;
-  for (const double impulse : impulses) {
-    counted += impulse;
-    if (counted >= share * all) return impulse;
-  }
-  return 0;
+      if (samples_.impulse(k, i) >= 0) {
+        strikes.push_back({samples_.center(k, i), samples_.impulse(k, i)});
+        all += strikes.back().impulse;
+      }
+
+  // The measure up to which strikes have a part of the impulses.
+  const auto quantile = [&](double part, const auto& measure) {
+    ranges::sort(strikes, std::less(), measure);
+    double sum = 0;
+    for (const Weighed& strike : strikes) {
+      sum += strike.impulse;
+      if (sum >= part * all) return measure(strike);
+    }
+    return infinity;
+  };
+
+  Place place;
+  for (int axis = 0; axis < 3; ++axis)
+    place.middle[axis] = quantile(0.5, [&](const Weighed& strike) { return strike.at[axis]; });
+  place.reach2 = quantile(share, [&](const Weighed& strike) { return (strike.at - place.middle).squaredNorm(); });
+  return place;
 }
 
 /// The scope of a sample follows from the time to the next collision of its body, and from the last one.
-void MotionView::find_scopes(double pace, double least) {
+void MotionView::find_scopes(double pace, const Place& place) {
   const size_t bodies = samples_.bodies().size(), instants = samples_.instants();
   scope_.assign(instants * bodies, uint8_t(whole));
   const auto narrow = [&](size_t instant, size_t i, double film_s) {
@@ -102,14 +119,17 @@ void MotionView::find_scopes(double pace, double least) {
     scope = min(scope, uint8_t(ranges::lower_bound(windows, film_s) - windows.begin()));
   };
 
+  const auto counts = [&](size_t k, size_t i) {
+    return samples_.impulse(k, i) >= 0 && (samples_.center(k, i) - place.middle).squaredNorm() <= place.reach2;
+  };
   for (size_t i = 0; i < bodies; ++i) {
     double last = -infinity, next = infinity;
     for (size_t k = 0; k < instants; ++k) {
-      if (samples_.impulse(k, i) >= least) last = samples_.time(k), strikes_.push_back({k, i});
+      if (counts(k, i)) last = samples_.time(k), strikes_.push_back({k, i});
       narrow(k, i, (samples_.time(k) - last) / (time_after * pace));
     }
     for (size_t k = instants; k-- > 0;) {
-      if (samples_.impulse(k, i) >= least) next = samples_.time(k);
+      if (counts(k, i)) next = samples_.time(k);
       narrow(k, i, (next - samples_.time(k)) / pace);
     }
   }

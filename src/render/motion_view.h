@@ -34,8 +34,8 @@ class MotionView {
   static constexpr array<double, 6> windows = {0.25, 0.5, 1, 2, 4, infinity};  // s of film before a collision
   static constexpr size_t whole = windows.size() - 1;
 
-  /// `pace`: seconds of motion a second of film. `share`: what happens is the hardest collisions, which together have
-  /// so much of all impulses. All must outlive this object.
+  /// `pace`: seconds of motion a second of film. `share`: what happens is the collisions nearest to their middle, which
+  /// together have so much of all impulses. All must outlive this object.
   MotionView(const Scene& scene, const MotionSamples& samples, double pace, double share = 1);
 
   /// Whether nothing collides. All motion then counts as what happens.
@@ -64,8 +64,13 @@ class MotionView {
   }
 
  private:
-  double least_impulse(double share) const;
-  void find_scopes(double pace, double least);
+  /// Where collisions count.
+  struct Place {
+    Vec3 middle = Vec3::Zero();  // m
+    double reach2 = infinity;    // m^2
+  };
+  Place place_of(double share) const;
+  void find_scopes(double pace, const Place& place);
   void find_departures();
   void add(Content& content, const Frustum& frustum, const Vec3& center, const Volume& volume) const;
   void add(Content& content, const Frustum& frustum, size_t instant, size_t i) const;

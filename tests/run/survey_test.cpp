@@ -101,6 +101,40 @@ TEST(Survey, SeesFromAboveWhatThingsOnATableWouldHide) {
   EXPECT_NEAR((at_start.target - at_start.eye).normalized().y(), -std::sin(85 * M_PI / 180), 1e-12);
 }
 
+// From above, between the walls, nothing would be hidden, and nothing of the fall be seen.
+TEST(Survey, SeesAnUprightMotionThroughTheWallBeforeIt) {
+  const RunPlace place;
+  const Scene scene = place.scene(
+      "scene: 1\nballs: {b: {mass: 1, radius: 0.05, position: [0, 1, 0], restitution: 0.8}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nwalls:\n"
+      "  front: {center: [0, 1, 0.2], normal: [0, 0, 1], size: [3, 2]}\n"
+      "  back: {center: [0, 1, -0.2], normal: [0, 0, 1], size: [3, 2]}\n"
+      "simulate: {duration: 2}\noutput: {video: true}\n");
+
+  MovingCamera camera(scene, {1280, 720});
+  MovingCamera* const cameras[] = {&camera};
+  survey(cameras, *make_simulator(scene, {.collisions = true}), [] {});
+  EXPECT_EQ(camera.faded(), vector<uint32_t>{1});
+  const Camera at_start = camera.at(scene.initial);
+  EXPECT_GT((at_start.target - at_start.eye).normalized().y(), -std::sin(61 * M_PI / 180));
+}
+
+TEST(Survey, OfSmallBodiesFramesTheCollisionsAroundTheMiddle) {
+  const RunPlace place;
+  const string floor = "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
+  const string row =
+      "scene: 1\ndefaults: {ball: {mass: 1, radius: 0.02, restitution: 0.8}}\n"
+      "simulate: {duration: 2}\noutput: {video: true}\n" +
+      floor + "balls:\n  row: {repeat: 20, position: ['= 0.05 * i', '= 0.9 + 0.005 * i', 0]}\n";
+
+  const Scene near = place.scene(row), with_far = place.scene(row + "  far: {position: [30, 1, 0]}\n");
+  const auto distance = [](const Scene& scene) {
+    const Camera camera = surveyed(scene);
+    return (camera.eye - camera.target).norm();
+  };
+  EXPECT_LT(distance(with_far), 1.5 * distance(near));
+}
+
 TEST(Survey, OfSlowMotionFramesItsInstants) {
   const RunPlace place;
   const Scene scene = place.scene(marble_run + "output: {video: {speed: 0.125, until: 0.5}}\n");
