@@ -21,6 +21,8 @@ class Drawings {
   vector<MovingCamera*> framing_cameras();
   /// The charts beside films, which need the motion, too.
   vector<FilmChart*> charts();
+  /// Does what pictures need beforehand. Its time counts as theirs.
+  void prepare(const function<void()>& work);
   /// Draws the motion whose record comes through the queue.
   void follow(RecordQueue& queue);
   /// Draws by recorded motions. `surveyed`: cameras and charts have been given the motion.
@@ -30,6 +32,7 @@ class Drawings {
 
  private:
   void draw_all(const MakeMotion& motion);
+  vector<Stages::Standing> drawn();
 
   Stages& stages_;
   const Scene& scene_;

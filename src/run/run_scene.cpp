@@ -191,8 +191,10 @@ class Run {
     }
 
     simulate(sinks);
-    if (framing) framing->finish();
-    if (charting) charting->finish();
+    drawings_.prepare([&] {
+      if (framing) framing->finish();
+      if (charting) charting->finish();
+    });
     const auto motion = [this] {
       return replay_from(make_unique<FlightsReader>(record_->reopened(), "", scene_), scene_.world);
     };

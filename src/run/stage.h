@@ -70,6 +70,8 @@ class DrawingSink final : public MotionSink {
   void sample(Simulator& simulator) override;
   void end_at(double time) override;
 
+  /// Counts a time (s) as spent on pictures.
+  void count(double seconds) { render_s_ += seconds; }
   double render_s() const { return render_s_; }  // wall times
   double export_s() const { return export_s_; }
 

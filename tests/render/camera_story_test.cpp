@@ -201,7 +201,6 @@ TEST(CameraStory, FadesWhatHidesFromEverywhere) {
   Scene scene = balls(2);
   test::add_wall(scene, Vec3(0, 0, 0.3), Vec3(0, 0, 1), Vec3(0, 1, 0), 6, 9, test::green);
   test::add_wall(scene, Vec3(0, 0, -0.3), Vec3(0, 0, 1), Vec3(0, 1, 0), 6, 9, test::green);
-  test::add_wall(scene, Vec3(0, 0.6, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), 6, 0.6, test::green);
   EXPECT_EQ(views_of(scene, meeting(1), 2).faded, vector<uint32_t>{0});
 }
 
