@@ -17,8 +17,8 @@ namespace carom {
 /// half a second. If bodies are smaller than a fiftieth even so, the collisions around the middle of all impulses alone
 /// are framed, as many as can be.
 ///
-/// It looks from the lowest of some elevations from which no fixed thing hides what happens. If all do, these things are
-/// to be faded. It is the same for any order of bodies.
+/// It looks from the lowest of some elevations from which no fixed thing hides what happens. If all do, these things
+/// are to be faded. It is the same for any order of bodies.
 CameraViews frame_views(const Scene& scene, const MotionSamples& samples, Size size, double pace);
 
 /// Collects a motion instant by instant, and frames it.
