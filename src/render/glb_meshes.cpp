@@ -34,17 +34,19 @@ Json look(const array<float, 4>& base, bool two_sided, const string& name) {
   return out;
 }
 
+Finish finish_of(const Coat& coat) {
+  return coat.surface.finish.value_or(Finish::plastic);
+}
+
 /// By which a coat is told from others.
 array<double, 5> key_of(const Coat& coat) {
-  const Surface& surface = coat.surface;
-  return {coat.color.r, coat.color.g, coat.color.b, double(surface.finish.value_or(Finish::plastic)),
-          surface.opacity.value_or(-1)};
+  return {coat.color.r, coat.color.g, coat.color.b, double(finish_of(coat)), coat.surface.opacity.value_or(-1)};
 }
 
 /// "#c8413f", "#c8413f glass", "#c8413f, opacity 0.5"
 string text_of(const Coat& coat) {
   string text = hex_text(coat.color);
-  if (coat.surface.finish) text += " " + string(name_of(*coat.surface.finish));
+  if (const Finish finish = finish_of(coat); finish != Finish::plastic) text += " " + string(name_of(finish));
   if (coat.surface.opacity) text += fmt::format(", opacity {}", *coat.surface.opacity);
   return text;
 }
@@ -116,11 +118,10 @@ size_t GlbMeshes::material(const Coat& coat, bool two_sided) {
   const raster::SurfaceLight light = surface_light(coat.surface, Finish::plastic);
   Json out = look({c[0], c[1], c[2], light.opacity}, two_sided, text_of(coat) + (two_sided ? ", two-sided" : ""));
 
-  if (coat.surface.finish) {
-    constexpr array<float, 5> roughness = {1, 0.6F, 0.25F, 0.05F, 0.6F};  // by finish
-    out["pbrMetallicRoughness"]["metallicFactor"] = *coat.surface.finish == Finish::metal ? 1 : 0;
-    out["pbrMetallicRoughness"]["roughnessFactor"] = roughness[size_t(*coat.surface.finish)];
-  }
+  constexpr array<float, 5> roughness = {1, 0.6F, 0.25F, 0.05F, 0.6F};  // by finish
+  const Finish finish = finish_of(coat);
+  out["pbrMetallicRoughness"]["metallicFactor"] = finish == Finish::metal ? 1 : 0;
+  out["pbrMetallicRoughness"]["roughnessFactor"] = roughness[size_t(finish)];
   if (light.opacity < 1) out["alphaMode"] = "BLEND";
   if (light.emission > 0) out["emissiveFactor"] = c;
   return file_.add_once("materials", std::move(out));

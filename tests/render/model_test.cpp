@@ -166,6 +166,20 @@ TEST(Glb, HasTheFinishesOfSurfaces) {
   EXPECT_EQ(materials[3]["emissiveFactor"], Json({1, 0, 0}));
 }
 
+TEST(Glb, OfABodyWithoutAFinishIsThatOfPlastic) {
+  const auto glb_with = [](optional<Finish> first, optional<Finish> second) {
+    Scene scene;
+    for (const optional<Finish>& finish : {first, second}) {
+      test::add_ball(scene, Vec3(double(scene.world.body_count()), 0, 0), 0.5, Color{1, 0, 0});
+      scene.roster.bodies.back().surface.finish = finish;
+    }
+    return glb(scene, {});
+  };
+  const string bytes = glb_with(nullopt, nullopt);
+  EXPECT_EQ(glb_with(nullopt, Finish::plastic), bytes);
+  EXPECT_EQ(glb_with(Finish::plastic, nullopt), bytes);
+}
+
 TEST(Glb, HasTheColorsAndTexturesOfMeshes) {
   const test::MeshFolder folder;
   test::GltfSquare square{test::data_uri(test::four_opacities)};
