@@ -55,7 +55,8 @@ def pictures(carom, scenes, folder, scene, time, *settings):
     pov, linear = os.path.join(folder, scene + '.pov'), os.path.join(folder, scene + '_linear.png')
     with open(pov, 'w', encoding='utf-8') as file:
         subprocess.run([os.path.join(HERE, 'povray_scene.py'), os.path.join(work, 'animation.glb'), repr(time),
-                        repr(distance), resolved.get('look', 'studio')], stdout=file, check=True)
+                        repr(distance), resolved.get('look', 'studio'), *resolved.get('obstacles', {})],
+                       stdout=file, check=True)
     run('povray', f'+I{pov}', f'+O{linear}', f'+W{SIZE[0]}', f'+H{SIZE[1]}', '+FN16', 'File_Gamma=1.0', '+A0.1', '+AM2',
         '+R3', '-D', '-GA')
     ffmpeg('-i', linear, '-vf', f"format=rgb48le,lutrgb=r='{CODED}':g='{CODED}':b='{CODED}',format=rgb24",

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """The scene of an animation.glb, at one of its keyframes, as a scene of POV-Ray with radiosity.
 
-    povray_scene.py ANIMATION.glb TIME DISTANCE LOOK > SCENE.pov
+    povray_scene.py ANIMATION.glb TIME DISTANCE LOOK [OBSTACLE...] > SCENE.pov
 
 A picture of it shows what carom's approximates: the same camera, bodies, surfaces, key light and backdrop, with light
 that is passed on from surface to surface. Balls, boxes and cylinders are exact, and planes are endless. Colours are
 linear, and half as bright as they are, so that 16 bits hold what is brighter than white: see look.py. Light from behind,
-outlines and what is flat by choice are carom's alone.
+outlines and what is flat by choice are carom's alone. A flat part of something is a plane, unless it is a part of one of
+the obstacles that are named.
 """
 
 import json
@@ -130,8 +131,9 @@ class Model:
 class Picture:
     """Lines of a scene of POV-Ray."""
 
-    def __init__(self, model, style):
+    def __init__(self, model, style, obstacles):
         self.model = model
+        self.obstacles = obstacles  # names
         self.style = style
         self.planes = []  # point, normal, colour, opacity
         self.places, self.reaches = [], []  # of the bodies, m
@@ -163,7 +165,7 @@ class Picture:
         sky = ''.join(f'    [{0.5 + 0.5 * s * u:.4f} {rgb(scaled(EXPOSURE, self.sky(s, u)))}]\n'
                       for s, u in [(-1, 1 - i / 16) for i in range(16)] + [(1, i / 16) for i in range(17)])
         return ['#version 3.7;',
-                'global_settings {', '  assumed_gamma 1', '  max_trace_level 12',
+                'global_settings {', '  assumed_gamma 1', '  max_trace_level 6',
                 '  radiosity { pretrace_start 0.08 pretrace_end 0.01 count 120 nearest_count 8 error_bound 0.5',
                 '    recursion_limit 2 low_error_factor 0.6 gray_threshold 0 minimum_reuse 0.012 brightness 1 }', '}',
                 'camera {', '  perspective',
@@ -179,10 +181,16 @@ class Picture:
                 '#declare Matt = finish { ambient 0 diffuse 1 }',
                 '#declare Glossy = finish { ambient 0 diffuse 1 specular 0.35 roughness 1 / 64',
                 '  reflection { 0, 1 fresnel on } conserve_energy }',
-                '#declare Clear = finish { ambient 0 diffuse 0.5 specular 1 roughness 1 / 64',
+                # It takes part in no radiosity, and is lit from all sides: a funnel of glass would take hours.
+                f'#declare Clear = finish {{ ambient 0 diffuse 0 emission {rgb(self.mean_light())} specular 1 roughness 1 / 64',
                 '  reflection { 0.04, 1 falloff 5 } }',
                 '#declare Metal = finish { ambient 0 diffuse 0.15 specular 0.9 roughness 1 / 64 metallic',
                 '  reflection { 0.85 metallic } }']
+
+    def mean_light(self):
+        """Of the surroundings, and half of the key light."""
+        key = scaled(0.5 * self.style['key_strength'], self.style['key'])
+        return scaled(EXPOSURE, add(self.style['ambient'], key))
 
     def sky(self, side, up):
         t = min(max(up / 0.75, 0), 1)
@@ -225,7 +233,12 @@ class Picture:
             self.places.append(at)
         if max(size) == 0:
             return
-        if kind == 'still' and all(n == normals[0] for n in normals) and not material.get('doubleSided'):
+        is_flat = kind == 'still' and all(n == normals[0] for n in normals) and not material.get('doubleSided')
+        if is_flat and node['name'].rpartition('.')[0] in self.obstacles:
+            # A flat part of a hollow obstacle is seen from within alone.
+            if dot(normals[0], add(self.eye, scaled(-1, at))) <= dot(normals[0], places[0]):
+                return
+        elif is_flat:
             opacity = material['pbrMetallicRoughness']['baseColorFactor'][3]
             self.planes.append((add(at, places[0]), list(normals[0]), color, opacity))
             return
@@ -260,7 +273,9 @@ class Picture:
             # Light is not refracted, as in carom, whose walls are thin.
             finish = 'Metal' if metal else 'Glossy emission 0.5' if glows else 'Clear' if opacity < 1 else 'Glossy'
             self.lines.append(f'#declare {name} = texture {{ {pigment} finish {{ {finish} }} }}')
-        return f'texture {{ {name} }}' + (' interior { ior 1.5 }' if opacity == 1 and not metal else '')
+        if opacity < 1:
+            return f'texture {{ {name} }} no_radiosity'
+        return f'texture {{ {name} }}' + ('' if metal else ' interior { ior 1.5 }')
 
     def mesh_name(self, number, places, normals, triangles):
         if number not in self.meshes:
@@ -327,11 +342,11 @@ class Picture:
 
 
 def main():
-    if len(sys.argv) != 5:
-        sys.exit('usage: povray_scene.py ANIMATION.glb TIME DISTANCE LOOK; the distance is that of the camera from its target;'
+    if len(sys.argv) < 5:
+        sys.exit('usage: povray_scene.py ANIMATION.glb TIME DISTANCE LOOK [OBSTACLE...]; the distance is that of the camera from its target;'
                  ' 0: from the bodies')
     model = Model(sys.argv[1], float(sys.argv[2]))
-    print('\n'.join(Picture(model, look_of(sys.argv[4])).scene(float(sys.argv[3]))))
+    print('\n'.join(Picture(model, look_of(sys.argv[4]), sys.argv[5:]).scene(float(sys.argv[3]))))
 
 
 if __name__ == '__main__':
