@@ -1,0 +1,58 @@
+#pragma once
+// What a comparison shows at a glance: the kind of variation, best and worst runs, and which parameter matters.
+
+#include "compare/outcomes.h"
+#include "run/measure.h"
+#include "std.h"
+
+namespace carom {
+
+/// How the runs vary. It decides which charts show them best.
+enum class Variety {
+  runs,    // nothing orders them: nothing varies, or scenes with little in common
+  line,    // one parameter, or several in step
+  plane,   // a grid of two parameters
+  samples  // points between which there are no lines: samples, and grids of more parameters
+};
+
+/// What the values of one measure show. Points are those of Outcomes; those without a value do not count.
+struct MeasureFinding {
+  static constexpr size_t most_ranked = 10;
+
+  size_t measure = 0;
+  size_t points = 0;  // with a value
+  /// Whether all values are equal up to rounding.
+  bool is_constant = false;
+  /// The points with the highest values, the highest first. Equal ones are in the order of the runs.
+  vector<size_t> highest;
+  /// Those with the lowest ones, the lowest first. Points of `highest` are not among them.
+  vector<size_t> lowest;
+  /// How many points have the very highest and the very lowest value.
+  size_t at_highest = 0, at_lowest = 0;
+  /// By Findings::parameters: Spearman's rank correlation of the measure with it. NaN: undefined, or values that are
+  /// no numbers.
+  vector<double> correlations;
+  /// The place in Findings::parameters of the strongest correlation. None: none is beyond chance.
+  optional<size_t> strongest;
+};
+
+struct Findings {
+  Variety variety = Variety::runs;
+  /// The parameters that vary independently, by their index in the plan.
+  vector<size_t> parameters;
+  /// By the measures of the comparison.
+  vector<MeasureFinding> measures;
+};
+
+/// `unrelated`: the scenes have little in common.
+Findings findings_of(const Outcomes& outcomes, size_t measures, bool unrelated);
+
+/// How the points vary; of related runs.
+Variety variety_of(const Outcomes& outcomes);
+
+/// Five lines or fewer, one for each measure that differs: its highest and lowest value, their runs, and the parameter
+/// with the strongest rank correlation.
+vector<pair<string, string>> lines_of(const Findings& findings, const ComparisonPlan& plan,
+                                      const vector<Measure>& measures, const Outcomes& outcomes);
+
+}  // namespace carom
