@@ -9,6 +9,7 @@
 #include "compare/common_values.h"
 #include "compare/compare_sheet.h"
 #include "compare/compared_run.h"
+#include "compare/comparison_page.h"
 #include "compare/data_dictionary.h"
 #include "compare/outcomes.h"
 #include "compare/parameter_sheet.h"
@@ -58,6 +59,7 @@ class Comparison {
         parameters_(book_.add("Parameters"), plan_, unrelated_),
         about_(book_.add("About")),
         outcomes_(plan, measures_.size(), count),
+        runs_(place, plan_, measures_, unrelated_),
         series_(std::move(variation.scenarios), measures_) {
     summary_.write_heads();
   }
@@ -77,6 +79,7 @@ class Comparison {
     if (collisions_) collisions_->add(run);
     common_.add(run);
     parameters_.add(run.run);
+    runs_.add(run);
   }
 
   size_t doubtful() const { return doubtful_; }  // so far
@@ -98,12 +101,20 @@ class Comparison {
     write_pivot_sheet();
     const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
-    parameters_.finish(outcomes_, common_.values());
-    write_charts(placed);
+    const vector<SceneValue> common = common_.values();
+    parameters_.finish(outcomes_, common);
+    const vector<ChartData> charts = charts_to_draw();
+    write_charts(charts, placed);
     write_about(about_, plan_, measures_, remarks());
 
     files.push_back(make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
+    files.back()->complete();
+
+    const Findings findings = findings_of(outcomes_, measures_.size(), unrelated_);
+    files.push_back(make_unique<OutputFile>(place_, page_name));
+    files.back()->write(comparison_page({plan_, measures_, outcomes_, findings, charts, runs_,
+                                         parameters_.differences(), common, count_, failed_, doubtful_}));
     files.back()->complete();
     return files;
   }
@@ -118,14 +129,17 @@ class Comparison {
                  summary_.is_table() ? count_ : 0});
   }
 
-  void write_charts(const vector<PlacedSeries>& placed) {
+  vector<ChartData> charts_to_draw() const {
     vector<ChartData> charts;
     for (Chart& chart : chosen_charts(plan_, measures_, outcomes_)) {
       // Bars by run: no parameter orders runs of different scenes.
       if (unrelated_ && plan_.charts.empty()) chart = {"", chart.y, ""};
       charts.push_back(chart_data(chart, plan_, measures_, outcomes_));
     }
+    return charts;
+  }
 
+  void write_charts(const vector<ChartData>& charts, const vector<PlacedSeries>& placed) {
     // One line of text says what the runs are.
     string varied;
     for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
@@ -181,6 +195,7 @@ class Comparison {
   ParameterSheet parameters_;
   Worksheet& about_;
   Outcomes outcomes_;
+  RunTable runs_;
   SeriesGatherer series_;
   CommonValues common_;
 };

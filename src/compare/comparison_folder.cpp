@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* request_key = "comparison";
 
 bool is_comparison_file(const string& name) {
-  const array<string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
+  const array<string_view, 5> names = {summary_name, repeats_name, workbook_name, page_name, comparison_film_name};
   return contains(names, name);
 }
 

@@ -117,12 +117,12 @@ string short_number(double number) {
   return isfinite(number) ? fmt::format("{:.5g}", number == 0 ? 0 : number) : "";
 }
 
-string page_head(string_view title) {
+string page_head(string_view title, string_view style) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
-      "<title>{}</title>\n<style>{}</style></head>\n<body>\n",
-      html_text(title), page_style());
+      "<title>{}</title>\n<style>{}{}</style></head>\n<body>\n",
+      html_text(title), page_style(), style);
 }
 
 string page_end() {

@@ -18,8 +18,8 @@ string html_address(string_view path);
 /// "12 collisions"; "-0.1235": a number with at most five digits. Empty: it is not finite.
 string short_number(double number);
 
-/// From `<!doctype html>` into the body, with the title in the head alone.
-string page_head(string_view title);
+/// From the document type into the body, with the title in the head alone. `style`: rules beside those of all pages.
+string page_head(string_view title, string_view style = {});
 string page_end();
 
 /// The plots of a page. Titles and legends are text of the page.
