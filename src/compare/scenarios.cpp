@@ -52,12 +52,11 @@ vector<size_t> spread_points(const Outcomes& outcomes, const vector<size_t>& par
   return chosen;
 }
 
-/// A number with at most five digits, or the text.
+}  // namespace
+
 string shown_value(const Cell& cell) {
   return cell.is_number() ? fmt::format("{:.5g}", cell.number == 0 ? 0.0 : cell.number) : cell.text;
 }
-
-}  // namespace
 
 vector<string> short_names(const vector<string>& paths) {
   const auto tail = [](const string& path, size_t words) {
