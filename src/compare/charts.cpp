@@ -4,12 +4,15 @@
 
 #include <fmt/format.h>
 
+#include "compare/heat_map.h"
 #include "std.h"
 
 namespace carom {
 namespace {
 
-constexpr size_t most_default_charts = 6, most_default_lines = 10, most_lines = 24;
+constexpr size_t most_default_charts = 6, most_default_lines = 8, most_lines = 24;
+/// Charts of samples: one for each pair of a measure and a parameter.
+constexpr size_t most_scatters = 12;
 /// Points of a chart, which has fewer pixels than that.
 constexpr size_t most_charted = 2000;
 
@@ -51,31 +54,51 @@ XAxis x_axis(const Chart& chart, const ComparisonPlan& plan, const vector<Measur
   return axis;
 }
 
+/// Each measure over each parameter with numbers, as many as there may be charts: the first measure over all, the
+/// others over those that matter most.
+vector<Chart> scatters(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes,
+                       const Findings& findings, const vector<const MeasureFinding*>& shown) {
+  vector<Chart> charts;
+  for (size_t k = 0; k < shown.size(); ++k) {
+    const vector<double>& correlations = shown[k]->correlations;
+    const auto strength = [&](size_t place) { return isfinite(correlations[place]) ? std::abs(correlations[place]) : 0.0; };
+    vector<size_t> places;
+    for (size_t place = 0; place < findings.parameters.size(); ++place)
+      if (outcomes.varied()[findings.parameters[place]].numeric) places.push_back(place);
+    ranges::stable_sort(places, [&](size_t a, size_t b) { return strength(a) > strength(b); });
+
+    const size_t room = (most_scatters - min(charts.size(), most_scatters)) / (shown.size() - k);
+    const size_t most = k == 0 ? max(room, places.size()) : max<size_t>(room, 1);
+    for (size_t i = 0; i < min(most, places.size()); ++i)
+      charts.push_back({plan.parameters[findings.parameters[places[i]]].path, measures[shown[k]->measure].name, ""});
+  }
+  return charts;
+}
+
 }  // namespace
 
-vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes) {
+vector<Chart> chosen_charts(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes,
+                            const Findings& findings) {
   if (!plan.charts.empty()) return plan.charts;
+  const vector<const MeasureFinding*> shown = shown_findings(findings, most_default_charts);
+  if (findings.variety == Variety::samples) return scatters(plan, measures, outcomes, findings, shown);
 
-  vector<size_t> independent = outcomes.independent();
+  // Of two parameters the one with fewer values makes the lines.
+  vector<size_t> parameters = findings.parameters;
   const auto values = [&](size_t p) { return outcomes.varied()[p].values.size(); };
-  string x, by;
-  if (!independent.empty()) {
-    // The parameter with few values makes the lines.
-    if (independent.size() > 1 && values(independent[1]) > most_default_lines &&
-        values(independent[0]) <= most_default_lines)
-      std::swap(independent[0], independent[1]);
-    x = plan.parameters[independent[0]].path;
-    if (independent.size() > 1 && values(independent[1]) <= most_default_lines)
-      by = plan.parameters[independent[1]].path;
-  }
+  if (parameters.size() > 1 && values(parameters[1]) > most_default_lines &&
+      values(parameters[0]) <= most_default_lines)
+    std::swap(parameters[0], parameters[1]);
+  const string x = parameters.empty() ? "" : plan.parameters[parameters[0]].path;
+  const string by = parameters.size() < 2 ? "" : plan.parameters[parameters[1]].path;
 
   vector<Chart> charts;
-  for (size_t k = 0; k < measures.size() && k < most_default_charts; ++k) charts.push_back({x, measures[k].name, by});
+  for (const MeasureFinding* finding : shown) charts.push_back({x, measures[finding->measure].name, by});
   return charts;
 }
 
 ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vector<Measure>& measures,
-                     const Outcomes& outcomes) {
+                     const Outcomes& outcomes, Variety variety) {
   const XAxis axis = x_axis(chart, plan, measures, outcomes);
   const size_t y = find_measure(measures, chart.y).value_or(0);
   const auto by = chart.by.empty() ? nullopt : find_parameter(plan, chart.by);
@@ -87,14 +110,20 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
   data.title = fmt::format("{} by {}", data.y_label, axis.label);
   data.numeric = axis.numeric;
 
+  // Evenly spaced values of the lines, if there are many.
   const size_t all = lines == nullptr ? 1 : lines->values.size();
-  data.lines.resize(min(all, most_lines));
-  if (all > most_lines) data.note = fmt::format("{} of {} values of {}", most_lines, all, chart.by);
-  for (size_t line = 0; lines != nullptr && line < data.lines.size(); ++line)
-    data.lines[line].name = name_of_value(plan.parameters[*by], lines->values[line].text);
+  const vector<size_t> chosen = evenly_spaced(all, plan.charts.empty() ? most_default_lines : most_lines);
+  vector<size_t> line_of_value(all, chosen.size());
+  data.lines.resize(chosen.size());
+  for (size_t line = 0; line < chosen.size(); ++line) {
+    line_of_value[chosen[line]] = line;
+    if (lines != nullptr)
+      data.lines[line].name = name_of_value(plan.parameters[lines->parameter], lines->values[chosen[line]].text);
+  }
+  if (all > chosen.size()) data.note = fmt::format("{} of {} values of {}", chosen.size(), all, chart.by);
 
   // Make a row for each x, and several rows if a line has several points there.
-  const auto line_of = [&](size_t i) -> size_t { return lines == nullptr ? 0 : lines->of_point[i]; };
+  const auto line_of = [&](size_t i) { return line_of_value[lines == nullptr ? 0 : lines->of_point[i]]; };
 
   vector<size_t> points_of_line(data.lines.size());
   size_t shown = 0;
@@ -127,7 +156,7 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
     if (plan.seed) line.spread = line.y;
   }
 
-  data.joined = axis.chosen;
+  data.joined = axis.chosen && variety != Variety::samples;
   for (const auto& [key, points] : rows) {
     for (const auto& [line, point] : points) {
       const Spread spread = outcomes.spread(point, y);

@@ -49,7 +49,7 @@ void CollisionSheet::finish() {
   sheet_.fit_table();
   sheet_.freeze(1, 1);
   worksheet_autofilter(sheet_.get(), 0, 0, to_row(max<size_t>(rows_.size(), 1)), to_column(collision_columns().size()));
-  sheet_.print_table(0);
+  sheet_.print_first_page();
 }
 
 }  // namespace carom

@@ -1,311 +1,328 @@
-// Draws the charts with libxlsxwriter and writes their data below them.
-// Axis ends are computed here, because a spreadsheet ignores error bars when it chooses them.
+// A grid of narrow columns, as wide as a printed page: heat maps have a column for each value, and everything else takes
+// several. Below the answers a block for each measure has its figure on the left and its ranking on the right.
 #include "compare/compare_sheet.h"
 
 #include <fmt/format.h>
 
+#include "compare/scenarios.h"
 #include "std.h"
+#include "yaml/letters.h"
 
 namespace carom {
 namespace {
 
-constexpr double column_width = 13;  // characters: 96 pixels
-constexpr size_t columns_of_chart = 7, rows_of_chart = 20, charts_across = 2;
-constexpr uint32_t chart_width = 650, chart_height = 385;  // pixels
-/// Error bars of a chart. Each is a series of its own.
-constexpr size_t most_bars = 120;
-constexpr size_t most_marked = 200;  // points of a line with markers
-constexpr size_t most_differences = 12;
+constexpr size_t columns = 48, figure_columns = 27, ranking_columns = columns - figure_columns - 1;
+constexpr double column_pixels = 27, row_pixels = 19;
+constexpr double row_height = 14.25;  // points
+constexpr double column_width = (column_pixels - 5) / 7;  // characters
+/// Rows of a printed page.
+constexpr size_t page_rows = 43;
+/// A ranking has a title, heads, its runs, and space below it.
+constexpr size_t unit_rows = MeasureFinding::most_ranked + 4;
+constexpr size_t most_measures = 6, most_heat_values = figure_columns - 2, most_differences = 12;
+constexpr size_t chart_rows = 19;
+constexpr size_t turned_rows = 2;  // beyond one, of turned heads
 
-// Distinct for people with colour vision deficiency, too (Okabe and Ito 2008).
-constexpr array<lxw_color_t, 8> colors = {0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7,
-                                          0xE69F00, 0x56B4E9, 0x595959, 0x8C510A};
+/// The columns of each item of a row.
+constexpr size_t measure_columns = 10, number_columns = 4, value_columns = 3, parameter_columns = 2;
 
-lxw_color_t color_of(size_t number) {
-  return colors[number % colors.size()];
-}
-
-struct CellRange {
-  const char* sheet;
-  size_t first_row, column, last_row;
+struct Layout {
+  size_t id;                  // columns of a run's id
+  vector<size_t> parameters;  // places in Findings::parameters that rankings have
+  bool beside;                // whether the highest and the lowest runs stand side by side
 };
 
-lxw_chart_series* add_series(lxw_chart* chart, const CellRange& x, const CellRange& y, const string& name) {
-  lxw_chart_series* series = chart_add_series(chart, nullptr, nullptr);
-  chart_series_set_categories(series, x.sheet, to_row(x.first_row), to_column(x.column), to_row(x.last_row),
-                              to_column(x.column));
-  chart_series_set_values(series, y.sheet, to_row(y.first_row), to_column(y.column), to_row(y.last_row),
-                          to_column(y.column));
-  if (!name.empty()) chart_series_set_name(series, name.c_str());
-  return series;
+size_t ranked_width(size_t id, size_t parameters) {
+  return id + value_columns + parameters * parameter_columns;
 }
 
-void set_line(lxw_chart_series* series, size_t number, bool drawn) {
-  lxw_chart_line line{};
-  line.color = color_of(number);
-  line.dash_type = uint8_t(number < colors.size() ? LXW_CHART_LINE_DASH_SOLID : LXW_CHART_LINE_DASH_DASH);
-  line.width = 1.75F;
-  line.none = drawn ? LXW_FALSE : LXW_TRUE;
-  chart_series_set_line(series, &line);
+Layout layout_of(const FrontPage& page) {
+  constexpr double letter = 8, margin = 6;  // pixels
+  double widest = 0;
+  for (const MeasureFinding& finding : page.findings.measures)
+    for (const auto* points : {&finding.highest, &finding.lowest})
+      for (const size_t point : *points) widest = max(widest, letter * double(letters_of(page.outcomes.id(point))));
+  const size_t id = size_t(clamp(ceil((widest + margin) / column_pixels), 2.0, 6.0));
+
+  const size_t all = page.findings.parameters.size();
+  const bool beside = 2 * ranked_width(id, all) + 1 <= ranking_columns;
+  const size_t most = (ranking_columns - id - value_columns) / parameter_columns;
+  return {id, evenly_spaced(all, beside ? all : most), beside};
 }
 
-void set_marker(lxw_chart_series* series, size_t number, bool drawn) {
-  chart_series_set_marker_type(series, drawn ? LXW_CHART_MARKER_CIRCLE : LXW_CHART_MARKER_NONE);
-  if (!drawn) return;
-  lxw_chart_fill fill{};
-  fill.color = color_of(number);
-  lxw_chart_line edge{};
-  edge.color = fill.color;
-  chart_series_set_marker_size(series, 5);
-  chart_series_set_marker_fill(series, &fill);
-  chart_series_set_marker_line(series, &edge);
+/// Short names of the parameters that vary.
+vector<string> names_of(const FrontPage& page) {
+  vector<string> paths;
+  for (const size_t p : page.findings.parameters) paths.push_back(page.plan.parameters[p].path);
+  return short_names(paths);
 }
 
-void set_texts(lxw_chart* chart, const string& title, const string& x, const string& y, bool legend) {
-  lxw_chart_font large{}, small{};
-  large.size = 12;
-  large.bold = LXW_TRUE;
-  small.size = 10;
-  small.bold = LXW_EXPLICIT_FALSE;
-  chart_title_set_name(chart, title.c_str());
-  chart_title_set_name_font(chart, &large);
-  chart_axis_set_name(chart->x_axis, x.c_str());
-  chart_axis_set_name_font(chart->x_axis, &small);
-  chart_axis_set_name(chart->y_axis, y.c_str());
-  chart_axis_set_name_font(chart->y_axis, &small);
-  // Beside the plot and not along an axis that may cross it.
-  chart_axis_set_label_position(chart->x_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
-  chart_axis_set_label_position(chart->y_axis, LXW_CHART_AXIS_LABEL_POSITION_LOW);
-  lxw_chart_line grid{};
-  grid.color = 0xD9D9D9;
-  grid.width = 0.75F;
-  chart_axis_major_gridlines_set_line(chart->y_axis, &grid);
-  chart_legend_set_position(chart, legend ? LXW_CHART_LEGEND_BOTTOM : LXW_CHART_LEGEND_NONE);
+/// Of all values of a parameter, by its place in Findings::parameters.
+NumberLook look_of(const FrontPage& page, size_t place) {
+  NumberLook look;
+  for (const Cell& value : page.outcomes.varied()[page.findings.parameters[place]].values) look.add(value.number);
+  return look;
 }
 
-/// Draws a standard deviation up and down from one point.
-/// It is a series of its own, because the error bars of one series all have the same length.
-void add_bar(lxw_chart* chart, const CellRange& x, const CellRange& y, size_t row, double length, size_t number) {
-  lxw_chart_series* point = add_series(chart, {x.sheet, row, x.column, row}, {y.sheet, row, y.column, row}, "");
-  set_line(point, number, false);
-  set_marker(point, number, false);
-  lxw_chart_line line{};
-  line.color = color_of(number);
-  line.width = 1.25F;
-  chart_series_set_error_bars(point->y_error_bars, LXW_CHART_ERROR_BAR_TYPE_FIXED, length);
-  chart_series_set_error_bars_line(point->y_error_bars, &line);
+double value_of(const FrontPage& page, const MeasureFinding& finding, size_t point) {
+  return page.outcomes.spread(point, finding.measure).mean();
 }
 
-/// Sets the ends of an axis so that it contains `low` to `high`.
-/// A spreadsheet ignores error bars and lets columns begin anywhere.
-/// Zero is included if that takes less than half of the axis.
-void set_ends(lxw_chart_axis* axis, double low, double high) {
-  if (!(high > low)) return;
-  if (low > 0 && low < 0.5 * high) low = 0;
-  if (high < 0 && high > 0.5 * low) high = 0;
-  // Choose a step of 1, 2 or 5 times a power of ten, with four to ten steps.
-  double step = 1;
-  while (step * 10 < high - low) step *= 10;
-  while (step > high - low) step /= 10;
-  for (const double part : {0.5, 0.4, 0.5})
-    if ((high - low) / step < 4) step *= part;
-  chart_axis_set_min(axis, step * floor(low / step));
-  chart_axis_set_max(axis, step * ceil(high / step));
-  chart_axis_set_major_unit(axis, step);
+NumberLook look_of(const FrontPage& page, const MeasureFinding& finding) {
+  NumberLook look;
+  for (const auto* points : {&finding.highest, &finding.lowest})
+    for (const size_t point : *points) look.add(value_of(page, finding, point));
+  return look;
 }
 
-/// The least and the greatest value drawn, including error bars.
-pair<double, double> ends_of(const ChartData& data) {
-  double low = infinity, high = -low;
-  for (const ChartLine& line : data.lines)
-    for (size_t row = 0; row < line.y.size(); ++row) {
-      if (!isfinite(line.y[row])) continue;
-      const double sd = line.spread.empty() || !(line.spread[row] > 0) ? 0 : line.spread[row];
-      low = min(low, line.y[row] - sd);
-      high = max(high, line.y[row] + sd);
-    }
-  return {low, high};
-}
-
-size_t bars_of(const ChartData& data) {
-  size_t bars = 0;
-  for (const ChartLine& line : data.lines)
-    bars += size_t(ranges::count_if(line.spread, [](double sd) { return sd > 0; }));
-  return bars;
+void add_correlation_scale(Worksheet& sheet, size_t row, size_t column, size_t rows, size_t width) {
+  lxw_conditional_format scale{};
+  scale.type = LXW_CONDITIONAL_3_COLOR_SCALE;
+  scale.min_rule_type = scale.mid_rule_type = scale.max_rule_type = LXW_CONDITIONAL_RULE_TYPE_NUMBER;
+  scale.min_value = -1;
+  scale.mid_value = 0;
+  scale.max_value = 1;
+  scale.min_color = 0xF4B183;
+  scale.mid_color = 0xFFFFFF;
+  scale.max_color = 0x8FBFE0;
+  worksheet_conditional_format_range(sheet.get(), to_row(row), to_column(column), to_row(row + rows - 1),
+                                     to_column(column + width - 1), &scale);
 }
 
 }  // namespace
 
-void CompareSheet::place(lxw_chart* chart, size_t number) {
-  lxw_chart_options options{};
-  // In units of the library's size, 480 x 288 pixels.
-  options.x_scale = chart_width / 480.0;
-  options.y_scale = chart_height / 288.0;
-  options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
-  worksheet_insert_chart_opt(sheet_.get(), to_row(charts_row_ + number / charts_across * rows_of_chart),
-                             to_column(number % charts_across * columns_of_chart), chart, &options);
+/// Begins a new printed page unless so many rows still have room on this one.
+void CompareSheet::begin_page(size_t rows) {
+  if (row_ + extra_ + rows <= page_ + page_rows || row_ == page_) return;
+  breaks_.push_back(row_);
+  page_ = row_;
+  extra_ = 0;
 }
 
-void CompareSheet::draw(const ChartData& data, size_t number, size_t first_row) {
-  const size_t last_row = first_row + data.x.size() - 1;
-  const size_t bars = bars_of(data);
-  const bool barred = data.numeric && bars > 0 && bars <= most_bars;
+/// Of unrelated runs: the values that matter most.
+void CompareSheet::write_differences(const FrontPage& page) {
+  const DifferenceList& differences = page.differences;
+  if (differences.rows.empty()) return;
+  constexpr size_t columns_of_path = 12;
+  const size_t width = (columns - columns_of_path) / max<size_t>(differences.runs.size(), 4);
 
-  // Texts along x are drawn as columns, in their order.
-  lxw_chart* chart = book_.add_chart(data.numeric ? LXW_CHART_SCATTER : LXW_CHART_COLUMN);
-  const CellRange x{"Compare", first_row, 0, last_row};
-
-  for (size_t k = 0; k < data.lines.size(); ++k) {
-    lxw_chart_series* series = add_series(chart, x, {"Compare", first_row, 1 + k, last_row}, data.lines[k].name);
-    if (data.numeric) {
-      set_line(series, k, data.joined && data.x.size() > 1);
-      set_marker(series, k, data.x.size() <= most_marked || !data.joined);
-    } else {
-      lxw_chart_fill fill{};
-      fill.color = color_of(k);
-      chart_series_set_fill(series, &fill);
-    }
-  }
-
-  // Error bars are series without names.
-  vector<int16_t> unnamed;
-  for (size_t k = 0; barred && k < data.lines.size(); ++k)
-    for (size_t row = 0; row < data.x.size(); ++row)
-      if (const double sd = data.lines[k].spread[row]; sd > 0) {
-        unnamed.push_back(int16_t(data.lines.size() + unnamed.size()));
-        add_bar(chart, x, {"Compare", first_row, 1 + k, last_row}, first_row + row, sd, k);
-      }
-  unnamed.push_back(-1);
-
-  string title = data.title;
-  if (barred) title += ", mean ± standard deviation";
-  if (!data.note.empty()) title += fmt::format(" ({})", data.note);
-  set_texts(chart, title, data.x_label, data.y_label, data.lines.size() > 1);
-  if (unnamed.size() > 1) chart_legend_delete_series(chart, unnamed.data());
-
-  chart_show_blanks_as(chart, LXW_CHART_BLANKS_AS_CONNECTED);
-  const auto [low, high] = ends_of(data);
-  if (barred) set_ends(chart->y_axis, low, high);
-  if (!data.numeric && low >= 0) chart_axis_set_min(chart->y_axis, 0);
-  place(chart, number);
-}
-
-void CompareSheet::draw_over_time(const vector<PlacedSeries>& series, size_t number, size_t scenarios) {
-  lxw_chart* chart = book_.add_chart(LXW_CHART_SCATTER_STRAIGHT);
-  const string& name = series.front().name;
-  size_t drawn = 0;
-  double low = numeric_limits<double>::quiet_NaN(), high = low;
-
-  for (const PlacedSeries& one : series) {
-    if (one.name != name) continue;
-    lxw_chart_series* line = add_series(chart, {"Series", 1, one.time_column, one.rows},
-                                        {"Series", 1, one.value_column, one.rows}, one.scenario);
-    set_line(line, drawn, true);
-    set_marker(line, 0, false);
-    ++drawn;
-    low = std::fmin(low, one.least);
-    high = std::fmax(high, one.greatest);
-  }
-
-  // An axis of rounding errors shows nothing.
-  constexpr double noise = 1e-6;
-  const double largest = max(std::abs(low), std::abs(high));
-  if (high - low < noise * largest) set_ends(chart->y_axis, min(low, 0.0), max(high, 0.0));
-
-  string title = fmt::format("{} over time", label_of(name));
-  if (scenarios > drawn) title += fmt::format(" ({} of {})", drawn, scenarios);
-  set_texts(chart, title, "time (s)", label_of(name), drawn > 1);
-  place(chart, number);
-}
-
-/// The points of a chart, below those of the charts before it.
-void CompareSheet::write_data(const ChartData& chart, size_t first_row) {
-  sheet_.text(first_row, 0, chart.title, CellStyle::note);
-  sheet_.set_head_row(first_row + 1);
-  sheet_.head(first_row + 1, 0, chart.x_label, CellStyle::varied_header);
-
-  // All lines are measured before the first number is written, and share one look.
-  NumberLook x_look, look;
-  for (const Cell& x : chart.x) x_look.add(x.number);
-  for (size_t k = 0; k < chart.lines.size(); ++k) {
-    const string& name = chart.lines[k].name;
-    sheet_.head(first_row + 1, 1 + k, name.empty() ? chart.y_label : name);
-    for (const double y : chart.lines[k].y) look.add(y);
-  }
-
-  for (size_t row = 0; row < chart.x.size(); ++row) {
-    sheet_.cell(first_row + 2 + row, 0, chart.x[row], CellStyle::varied, &x_look);
-    for (size_t k = 0; k < chart.lines.size(); ++k)
-      sheet_.number(first_row + 2 + row, 1 + k, chart.lines[k].y[row], CellStyle::plain, &look);
-  }
-}
-
-void CompareSheet::write_differences(const ComparisonPlan& plan, const DifferenceList& differences) {
-  constexpr size_t columns_of_path = 3;
-  sheet_.text(charts_row_, 0, "What differs", CellStyle::header);
-  for (size_t k = 1; k < columns_of_path; ++k) sheet_.text(charts_row_, k, "", CellStyle::header);
+  sheet_.wide(row_, 0, columns_of_path, Cell{"What differs"}, CellStyle::header);
   for (size_t k = 0; k < differences.runs.size(); ++k)
-    sheet_.text(charts_row_, columns_of_path + k, differences.runs[k], CellStyle::header);
-  ++charts_row_;
+    sheet_.wide(row_, columns_of_path + k * width, width, Cell{differences.runs[k]}, CellStyle::fitted_header);
+  ++row_;
 
   const size_t shown = min(differences.rows.size(), most_differences);
-  for (size_t i = 0; i < shown; ++i, ++charts_row_) {
+  for (size_t i = 0; i < shown; ++i, ++row_) {
     const Difference& difference = differences.rows[i];
-    sheet_.text(charts_row_, 0, label_of(plan.parameters[difference.parameter]));
+    sheet_.wide(row_, 0, columns_of_path, Cell{label_of(page.plan.parameters[difference.parameter])});
     for (size_t k = 0; k < difference.values.size(); ++k) {
       const string& value = difference.values[k];
-      sheet_.cell(charts_row_, columns_of_path + k, value.empty() ? Cell{"-"} : cell_of(value));
+      sheet_.wide(row_, columns_of_path + k * width, width, value.empty() ? Cell{"-"} : cell_of(value),
+                  CellStyle::fitted);
     }
   }
 
   if (shown < differences.rows.size())
-    sheet_.text(charts_row_++, 0, fmt::format("and {} more, on the sheet Parameters", differences.rows.size() - shown),
+    sheet_.text(row_++, 0, fmt::format("and {} more, on the sheet Parameters", differences.rows.size() - shown),
                 CellStyle::note);
-  ++charts_row_;
+  ++row_;
 }
 
-/// Prints the charts alone, two rows of them on a page. The tables below them repeat what other sheets have.
-void CompareSheet::set_pages(size_t charts, size_t last_row) {
-  constexpr size_t rows_on_page = 46;
-  vector<size_t> breaks;
-  size_t page = 0;
+/// A row for each measure: its highest and lowest value, their runs, and its rank correlation with each parameter.
+void CompareSheet::write_answers(const FrontPage& page) {
+  const vector<const MeasureFinding*> shown = shown_findings(page.findings, most_measures);
+  if (shown.empty()) return;
+  const size_t id = layout_of(page).id, all = page.findings.parameters.size();
+  const vector<string> names = names_of(page);
+  vector<NumberLook> looks;
+  for (size_t k = 0; k < all; ++k) looks.push_back(look_of(page, k));
+  const bool repeats = page.plan.seed.has_value();
 
-  for (size_t k = 0; k < (charts + charts_across - 1) / charts_across; ++k) {
-    const size_t row = charts_row_ + k * rows_of_chart;
-    if (row + rows_of_chart <= page + rows_on_page) continue;
-    breaks.push_back(row);
-    page = row;
+  // Parameters' values have columns if there is room.
+  const size_t spread = repeats ? number_columns : 0;
+  const size_t fixed = measure_columns + 2 * (number_columns + id) + spread;
+  const size_t values = fixed + all * (2 * value_columns + number_columns) <= columns ? all : 0;
+  const size_t correlated = min(all, (columns - fixed - 2 * values * value_columns) / number_columns);
+
+  size_t column = 0;
+  vector<pair<size_t, size_t>> strengths;  // columns of correlations, and widths
+  const auto head = [&](size_t width, const string& text, CellStyle style = CellStyle::fitted_header) {
+    sheet_.wide(row_, column, width, Cell{text}, style);
+    column += width;
+  };
+  head(measure_columns, "measure", CellStyle::header);
+  for (const char* end : {"highest", "lowest"}) {
+    head(number_columns, end);
+    head(id, "run");
+    for (size_t k = 0; k < values; ++k) head(value_columns, names[k], CellStyle::fitted_varied);
+  }
+  if (repeats) head(number_columns, "repeats, sd");
+  const size_t first_strength = column;
+  for (size_t k = 0; k < correlated; ++k) head(number_columns, "ρ " + names[k]);
+  ++row_;
+
+  const size_t first_row = row_;
+  for (const MeasureFinding* one : shown) {
+    const MeasureFinding& finding = *one;
+    const NumberLook look = look_of(page, finding);
+    column = 0;
+    const auto cell = [&](size_t width, const Cell& value, CellStyle style, const NumberLook* how) {
+      sheet_.wide(row_, column, width, value, style, how);
+      column += width;
+    };
+
+    cell(measure_columns, Cell{label_of(page.measures[finding.measure].name)}, CellStyle::total, nullptr);
+    const size_t high = finding.highest.front();
+    const size_t low = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
+    for (const auto& [point, equal] : {pair(high, finding.at_highest), pair(low, finding.at_lowest)}) {
+      cell(number_columns, Cell{{}, value_of(page, finding, point)}, CellStyle::fitted, &look);
+      cell(id, Cell{string(page.outcomes.id(point)) + (equal > 1 ? fmt::format(" +{}", equal - 1) : "")},
+           CellStyle::fitted_name, nullptr);
+      for (size_t k = 0; k < values; ++k)
+        cell(value_columns, page.outcomes.value(point, page.findings.parameters[k]), CellStyle::fitted_varied, &looks[k]);
+    }
+
+    if (repeats) cell(number_columns, Cell{{}, finding.spread_of_repeats}, CellStyle::fitted, &look);
+    NumberLook hundredths;
+    hundredths.add(0.12);
+    for (size_t k = 0; k < correlated; ++k)
+      cell(number_columns, Cell{{}, finding.correlations[k]}, k == finding.strongest ? CellStyle::total : CellStyle::fitted,
+           &hundredths);
+    ++row_;
   }
 
-  sheet_.print_pages(breaks);
-  worksheet_print_area(sheet_.get(), 0, 0, to_row(last_row), to_column(charts_across * columns_of_chart - 1));
+  if (correlated > 0) {
+    add_correlation_scale(sheet_, first_row, first_strength, row_ - first_row, correlated * number_columns);
+    sheet_.text(row_++, 0,
+                "ρ: Spearman's rank correlation, from -1 (falls) to 1 (rises); the strongest is bold. A value at which "
+                "a measure turns round counts as none: see the figures.",
+                CellStyle::note);
+  }
+  ++row_;
 }
 
-void CompareSheet::write(const ComparisonPlan& plan, const string& line, const DifferenceList& differences,
-                         const vector<ChartData>& charts, const vector<PlacedSeries>& series, size_t scenarios) {
-  constexpr size_t columns = charts_across * columns_of_chart;
-  size_t widest = columns;
-  for (const ChartData& chart : charts) widest = max(widest, chart.lines.size() + 1);
-  worksheet_set_column(sheet_.get(), 0, to_column(widest), column_width, nullptr);
+/// The runs with the highest and the lowest values, beginning at the present row.
+void CompareSheet::write_ranking(const FrontPage& page, const MeasureFinding& finding, size_t first_column) {
+  const Layout layout = layout_of(page);
+  const vector<string> names = names_of(page);
+  const string label = label_of(page.measures[finding.measure].name);
+  const NumberLook look = look_of(page, finding);
+  const size_t width = ranked_width(layout.id, layout.parameters.size());
+  vector<NumberLook> looks;
+  for (const size_t place : layout.parameters) looks.push_back(look_of(page, place));
 
-  sheet_.text(0, 0, plan.title, CellStyle::title);
-  sheet_.note(1, columns, line, columns * column_width);
-  charts_row_ = 3;
-  if (!differences.rows.empty()) write_differences(plan, differences);
+  size_t row = row_, column = first_column;
+  for (const bool is_high : {true, false}) {
+    const vector<size_t>& points = is_high ? finding.highest : finding.lowest;
+    if (points.empty()) break;
+    const size_t equal = is_high ? finding.at_highest : finding.at_lowest;
+    string title = fmt::format("{}: {}", label, finding.lowest.empty() ? "all" : is_high ? "highest" : "lowest");
+    if (equal > 1) title += fmt::format(" ({} equal)", equal);
 
-  // Beneath the charts are their numbers.
-  const size_t all = charts.size() + (series.empty() ? 0 : 1);
-  const size_t end_of_charts = charts_row_ + (all + charts_across - 1) / charts_across * rows_of_chart;
-  size_t row = end_of_charts + 1;
-  for (size_t k = 0; k < charts.size(); ++k) {
-    write_data(charts[k], row);
-    if (!charts[k].x.empty()) draw(charts[k], k, row + 2);
-    row += charts[k].x.size() + 3;
+    sheet_.wide(row, column, width, Cell{title}, CellStyle::total);
+    sheet_.wide(row + 1, column, layout.id, Cell{"run"}, CellStyle::fitted_header);
+    sheet_.wide(row + 1, column + layout.id, value_columns, Cell{"value"}, CellStyle::fitted_header);
+    for (size_t k = 0; k < layout.parameters.size(); ++k)
+      sheet_.wide(row + 1, column + ranked_width(layout.id, k), parameter_columns, Cell{names[layout.parameters[k]]},
+                  CellStyle::fitted_varied);
+
+    for (size_t i = 0; i < points.size(); ++i) {
+      const size_t at = row + 2 + i;
+      sheet_.wide(at, column, layout.id, Cell{string(page.outcomes.id(points[i]))}, CellStyle::fitted_name);
+      sheet_.wide(at, column + layout.id, value_columns, Cell{{}, value_of(page, finding, points[i])},
+                  CellStyle::fitted, &look);
+      for (size_t k = 0; k < layout.parameters.size(); ++k)
+        sheet_.wide(at, column + ranked_width(layout.id, k), parameter_columns,
+                    page.outcomes.value(points[i], page.findings.parameters[layout.parameters[k]]),
+                    CellStyle::fitted_varied, &looks[k]);
+    }
+
+    // The lowest stand beside the highest, or below them.
+    if (layout.beside)
+      column += width + 1;
+    else
+      row += points.size() + 2;
+  }
+}
+
+/// A measure with its figure and its ranking. `left`: charts of the measure, of which those with room are taken.
+void CompareSheet::write_block(const FrontPage& page, const MeasureFinding& finding, vector<ChartData>& left,
+                               SheetCharts& charts) {
+  const auto take_chart = [&](size_t row, size_t column, size_t width) {
+    if (left.empty()) return;
+    charts.draw(sheet_, left.front(),
+                {row, column, double(width) * column_pixels - 6, double(unit_rows) * row_pixels - 6});
+    left.erase(left.begin());
+  };
+
+  size_t rows = layout_of(page).beside ? unit_rows : 2 * unit_rows;
+  if (!page.heat_map) {
+    begin_page(rows);
+    sheet_.set_heights(row_, row_ + rows, row_height);
+    for (size_t row = 0; row < rows; row += unit_rows) take_chart(row_ + row, 0, figure_columns);
+  } else {
+    // Cells of a map with few columns are wider.
+    const HeatMap map = heat_map(page.outcomes, *page.heat_map, finding.measure, most_heat_values);
+    rows = max(rows, (map.rows.size() + 3 + unit_rows - 1) / unit_rows * unit_rows);
+    begin_page(rows + turned_rows);
+    sheet_.set_heights(row_, row_ + rows, row_height);
+    sheet_.text(row_, 0,
+                fmt::format("{}: down {}, across {}", label_of(page.measures[finding.measure].name),
+                            page.plan.parameters[map.down].path, page.plan.parameters[map.across].path),
+                CellStyle::section);
+    sheet_.set_head_row(row_ + 1, 1 + turned_rows);
+    HeatMapPlace place{row_ + 1, 0, 2, true};
+    place.columns_of_cell = clamp<size_t>(most_heat_values / max<size_t>(map.columns.size(), 1), 1, 4);
+    write_heat_map(sheet_, page.plan, page.outcomes, map, finding.measure, place, page.summary);
+    extra_ += turned_rows;
+    if (layout_of(page).beside && rows > unit_rows)
+      take_chart(row_ + unit_rows, figure_columns + 1, ranking_columns);
   }
 
-  if (!series.empty()) draw_over_time(series, charts.size(), scenarios);
+  write_ranking(page, finding, figure_columns + 1);
+  row_ += rows;
+}
+
+void CompareSheet::write(const FrontPage& page, SheetCharts& charts) {
+  worksheet_set_column(sheet_.get(), 0, to_column(columns - 1), column_width, nullptr);
+  sheet_.text(row_++, 0, page.plan.title, CellStyle::title);
+  for (const string& line : page.lines) sheet_.note(row_++, columns, line, columns * column_pixels / 6.5);
+  const size_t first = row_++;
+  write_answers(page);
+  write_differences(page);
+  sheet_.set_heights(first, row_, row_height);
+
+  // A block for each measure, with its own charts. The others follow.
+  vector<ChartData> others;
+  map<string, vector<ChartData>> of_measure;
+  for (const Chart& chart : chosen_charts(page.plan, page.measures, page.outcomes, page.findings))
+    of_measure[chart.y].push_back(chart_data(chart, page.plan, page.measures, page.outcomes, page.findings.variety));
+  for (const MeasureFinding* finding : shown_findings(page.findings, most_measures))
+    write_block(page, *finding, of_measure[page.measures[finding->measure].name], charts);
+  for (const Measure& measure : page.measures)
+    for (ChartData& chart : of_measure[measure.name])
+      if (!chart.x.empty()) others.push_back(std::move(chart));
+
+  // Two charts side by side.
+  const size_t all = others.size() + (page.series.empty() ? 0 : 1);
+  for (size_t k = 0; k < all; ++k) {
+    if (k % 2 == 0) {
+      begin_page(chart_rows + 1);
+      sheet_.set_heights(row_, row_ + chart_rows + 1, row_height);
+    }
+    const ChartPlace place{row_, k % 2 * (columns / 2), double(columns) / 2 * column_pixels - 8,
+                           double(chart_rows) * row_pixels};
+    if (k < others.size())
+      charts.draw(sheet_, others[k], place);
+    else
+      charts.draw_over_time(sheet_, page.series, page.scenarios, place);
+    if (k % 2 == 1 || k + 1 == all) row_ += chart_rows + 1;
+  }
+
+  charts.finish();
   worksheet_gridlines(sheet_.get(), LXW_HIDE_ALL_GRIDLINES);
-  set_pages(all, end_of_charts - 1);
+  sheet_.print_pages(breaks_);
+  worksheet_print_area(sheet_.get(), 0, 0, to_row(max<size_t>(row_, 1) - 1), to_column(columns - 1));
 }
 
 }  // namespace carom

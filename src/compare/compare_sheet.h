@@ -1,34 +1,48 @@
 #pragma once
-// The first sheet of the workbook: charts, and beneath them their numbers.
+// The first sheet of the workbook: what varied, the best and worst runs, which parameter matters, and charts.
 
-#include "compare/charts.h"
+#include "compare/findings.h"
+#include "compare/heat_map.h"
 #include "compare/parameter_sheet.h"
-#include "compare/series.h"
+#include "compare/pivot_sheet.h"
+#include "compare/sheet_charts.h"
 #include "compare/workbook.h"
 #include "std.h"
 
 namespace carom {
 
+/// What the sheet shows.
+struct FrontPage {
+  const ComparisonPlan& plan;
+  const vector<Measure>& measures;
+  const Outcomes& outcomes;
+  const Findings& findings;
+  vector<string> lines;  // below the title
+  const DifferenceList& differences;
+  optional<pair<size_t, size_t>> heat_map;  // its parameters; none: charts alone
+  SummaryPlace summary;
+  /// Their places on the sheet Series, and of how many scenarios they are.
+  const vector<PlacedSeries>& series;
+  size_t scenarios = 0;
+};
+
 class CompareSheet {
  public:
-  explicit CompareSheet(Workbook& book, bool streamed) : book_(book), sheet_(book.add("Compare", streamed)) {}
+  explicit CompareSheet(Workbook& book) : sheet_(book.add("Compare")) {}
 
-  /// `line`: the text above the charts. `differences`: a list below it. `series`: their places on the sheet Series, of
-  /// so many scenarios.
-  void write(const ComparisonPlan& plan, const string& line, const DifferenceList& differences,
-             const vector<ChartData>& charts, const vector<PlacedSeries>& series, size_t scenarios);
+  void write(const FrontPage& page, SheetCharts& charts);
 
  private:
-  void write_differences(const ComparisonPlan& plan, const DifferenceList& differences);
-  void write_data(const ChartData& chart, size_t first_row);
-  void draw(const ChartData& data, size_t number, size_t first_row);
-  void draw_over_time(const vector<PlacedSeries>& series, size_t number, size_t scenarios);
-  void set_pages(size_t charts, size_t last_row);
-  void place(lxw_chart* chart, size_t number);
+  void write_differences(const FrontPage& page);
+  void write_answers(const FrontPage& page);
+  void write_ranking(const FrontPage& page, const MeasureFinding& finding, size_t first_column);
+  void write_block(const FrontPage& page, const MeasureFinding& finding, vector<ChartData>& left, SheetCharts& charts);
+  void begin_page(size_t rows);
 
-  Workbook& book_;
   Worksheet& sheet_;
-  size_t charts_row_ = 0;
+  size_t row_ = 0;  // the next free one
+  size_t page_ = 0, extra_ = 0;  // the first row of the present page; heights beyond one row on it
+  vector<size_t> breaks_;
 };
 
 }  // namespace carom

@@ -11,15 +11,19 @@
 #include "compare/compared_run.h"
 #include "compare/comparison_page.h"
 #include "compare/data_dictionary.h"
+#include "compare/findings.h"
+#include "compare/heat_map.h"
 #include "compare/outcomes.h"
 #include "compare/parameter_sheet.h"
 #include "compare/pivot_sheet.h"
 #include "compare/scenarios.h"
 #include "compare/series.h"
+#include "compare/sheet_charts.h"
 #include "compare/summary_sheet.h"
 #include "compare/workbook.h"
 #include "files/manifest.h"
 #include "files/run_folder.h"
+#include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
@@ -48,14 +52,15 @@ class Comparison {
         count_(count),
         measures_(measures_of(plan)),
         book_(place, workbook_name, plan_.title),
-        charts_(book_, !SummarySheet::is_table(count)),
         unrelated_(variation.unrelated),
         // The sheets, in their order.
+        front_(book_),
+        pivot_(variation.two ? &book_.add("Pivot", true) : nullptr),
         summary_(place, book_, plan_, measures_, count, unrelated_),
         repeats_(plan.seed ? &book_.add("Repeats", true) : nullptr),
-        pivot_(variation.two ? &book_.add("Pivot", true) : nullptr),
         series_sheet_(book_.add("Series", true)),
         collisions_(plan.collisions ? make_unique<CollisionSheet>(book_.add("Collisions", true), count) : nullptr),
+        charts_(book_, !SummarySheet::is_table(count)),
         parameters_(book_.add("Parameters"), plan_, unrelated_),
         about_(book_.add("About")),
         outcomes_(plan, measures_.size(), count),
@@ -83,6 +88,8 @@ class Comparison {
   }
 
   size_t doubtful() const { return doubtful_; }  // so far
+  /// What was found; after finish().
+  const vector<pair<string, string>>& found() const { return found_; }
 
   vector<unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
@@ -98,61 +105,63 @@ class Comparison {
     }
 
     // The sheets that take all runs together.
-    write_pivot_sheet();
+    const Findings findings = findings_of(outcomes_, measures_.size(), unrelated_);
+    found_ = lines_of(findings, plan_, measures_, outcomes_);
     const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
     const vector<SceneValue> common = common_.values();
     parameters_.finish(outcomes_, common);
-    const vector<ChartData> charts = charts_to_draw();
-    write_charts(charts, placed);
+    write_front(findings, placed);
     write_about(about_, plan_, measures_, remarks());
 
     files.push_back(make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
     files.back()->complete();
 
-    const Findings findings = findings_of(outcomes_, measures_.size(), unrelated_);
     files.push_back(make_unique<OutputFile>(place_, page_name));
-    files.back()->write(comparison_page({plan_, measures_, outcomes_, findings, charts, runs_,
-                                         parameters_.differences(), common, count_, failed_, doubtful_}));
+    files.back()->write(comparison_page(
+        {plan_, measures_, outcomes_, findings, runs_, parameters_.differences(), common, count_, failed_, doubtful_}));
     files.back()->complete();
     return files;
   }
 
  private:
-  void write_pivot_sheet() {
-    if (pivot_ == nullptr) return;
-    const auto parameters = pivot_parameters(plan_, outcomes_);
-    if (!parameters) return;
-    write_pivot(*pivot_, plan_, measures_, outcomes_, *parameters,
-                {summary_.parameter_columns(), summary_.measure_columns(), summary_.first_row(),
-                 summary_.is_table() ? count_ : 0});
+  void write_front(const Findings& findings, const vector<PlacedSeries>& placed) {
+    const auto two = unrelated_ ? nullopt : heat_map_parameters(plan_, outcomes_);
+    const SummaryPlace place{summary_.parameter_columns(), summary_.measure_columns(), summary_.first_row(),
+                             summary_.is_table() ? count_ : 0};
+    if (pivot_ != nullptr && two) write_pivot(*pivot_, plan_, measures_, outcomes_, *two, place);
+
+    // A grid of two parameters begins with a heat map; of more parameters it is a mean over the others.
+    front_.write({plan_, measures_, outcomes_, findings, lines(findings), parameters_.differences(),
+                  findings.variety == Variety::plane ? two : nullopt, place, placed, series_.scenarios().all},
+                 charts_);
   }
 
-  vector<ChartData> charts_to_draw() const {
-    vector<ChartData> charts;
-    for (Chart& chart : chosen_charts(plan_, measures_, outcomes_)) {
-      // Bars by run: no parameter orders runs of different scenes.
-      if (unrelated_ && plan_.charts.empty()) chart = {"", chart.y, ""};
-      charts.push_back(chart_data(chart, plan_, measures_, outcomes_));
-    }
-    return charts;
-  }
-
-  void write_charts(const vector<ChartData>& charts, const vector<PlacedSeries>& placed) {
-    // One line of text says what the runs are.
-    string varied;
-    for (const Parameter& parameter : plan_.parameters) varied += (varied.empty() ? "" : ", ") + parameter.path;
+  /// What the runs are, how far they can be trusted, and what does not differ.
+  vector<string> lines(const Findings& findings) const {
     string text = how_many(count_, "run", "runs");
-    if (failed_ > 0) text += fmt::format(", {} of them failed", failed_);
-    if (doubtful_ > 0) text += fmt::format(", {} of them doubtful", doubtful_);
     if (unrelated_)
       text += fmt::format(" of scenes with little in common; {}",
                           how_many(plan_.parameters.size(), "value differs", "values differ"));
-    else if (!varied.empty())
-      text += "; varied: " + varied;
+    else if (!plan_.parameters.empty())
+      text += "; varied: " + varied_ranges(plan_, outcomes_);
 
-    charts_.write(plan_, text, parameters_.differences(), charts, placed, series_.scenarios().all);
+    string state = failed_ + doubtful_ == 0 ? "No run failed or is doubtful" : "";
+    if (failed_ > 0) state += how_many(failed_, "run failed", "runs failed");
+    if (doubtful_ > 0)
+      state +=
+          fmt::format("{}{}", state.empty() ? "" : ", ", how_many(doubtful_, "run is doubtful", "runs are doubtful"));
+
+    string same;
+    for (const MeasureFinding& finding : findings.measures)
+      if (finding.is_constant && finding.points == outcomes_.points() && count_ > 1)
+        same += fmt::format("{}{} = {}", same.empty() ? "The same in all runs: " : "; ",
+                            label_of(measures_[finding.measure].name),
+                            shown_value(Cell{{}, outcomes_.spread(finding.highest.front(), finding.measure).mean()}));
+    vector<string> lines = {text, state + "."};
+    if (!same.empty()) lines.push_back(same + ".");
+    return lines;
   }
 
   vector<string> remarks() const {
@@ -186,18 +195,21 @@ class Comparison {
   const size_t status_ = size_t(find_summary_column("status") - summary_columns().data());
   vector<Measure> measures_;
   Workbook book_;
-  CompareSheet charts_;
   bool unrelated_;
+  CompareSheet front_;
+  Worksheet* pivot_;
   SummarySheet summary_;
-  Worksheet *repeats_, *pivot_;
+  Worksheet* repeats_;
   Worksheet& series_sheet_;
   unique_ptr<CollisionSheet> collisions_;
+  SheetCharts charts_;
   ParameterSheet parameters_;
   Worksheet& about_;
   Outcomes outcomes_;
   RunTable runs_;
   SeriesGatherer series_;
   CommonValues common_;
+  vector<pair<string, string>> found_;
 };
 
 /// Reads the values of all runs, and no other file of them.
@@ -221,7 +233,7 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
   outcomes.finish();
   const auto absent = size_t(ranges::count(is_absent, true));
   variation.unrelated = 2 * absent > plan.parameters.size();
-  variation.two = plan.parameters.size() > 1 && !variation.unrelated && pivot_parameters(plan, outcomes).has_value();
+  variation.two = plan.parameters.size() > 1 && !variation.unrelated && heat_map_parameters(plan, outcomes).has_value();
   variation.scenarios = chosen_scenarios(plan, outcomes, points, variation.unrelated);
   return variation;
 }
@@ -239,7 +251,9 @@ vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const Co
     watch.done(i + 1);
   }
   watch.doubtful(comparison.doubtful());
-  return comparison.finish();
+  auto files = comparison.finish();
+  watch.found(comparison.found());
+  return files;
 }
 
 }  // namespace carom

@@ -10,6 +10,7 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/stored_file.h"
+#include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/printable.h"
 #include "yaml/value_json.h"

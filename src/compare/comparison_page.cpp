@@ -14,14 +14,6 @@
 namespace carom {
 namespace {
 
-constexpr size_t most_heat_maps = 12, most_figures = 24, most_differences = 20, most_heat_values = 40;
-constexpr size_t most_shared = 1000;
-constexpr size_t most_named = 4;  // parameters of a run in a line
-
-string value_text(const Cell& cell) {
-  return cell.is_number() ? short_number(cell.number) : cell.text;
-}
-
 /// "rises with speed (rank correlation 0.83)"
 string trend_of(double correlation, const string& name) {
   return fmt::format("{} with <b class=\"p\">{}</b> <small>rank correlation {:.2f}</small>",
@@ -30,6 +22,10 @@ string trend_of(double correlation, const string& name) {
 
 class ComparisonPage {
  public:
+  static constexpr size_t most_measures = 8, most_figures = 24, most_heat_values = 40;
+  static constexpr size_t most_differences = 8, most_shared = 1000;
+  static constexpr size_t most_named = 4;  // parameters of a run in a line
+
   explicit ComparisonPage(const PageContent& content) : c_(content), looks_(content.measures.size()) {
     vector<string> paths;
     for (const Parameter& parameter : c_.plan.parameters) paths.push_back(parameter.path);
@@ -37,6 +33,7 @@ class ComparisonPage {
     for (const MeasureFinding& finding : c_.findings.measures)
       for (const auto* points : {&finding.highest, &finding.lowest})
         for (const size_t point : *points) looks_[finding.measure].add(mean(point, finding.measure));
+    shown_ = shown_findings(c_.findings, most_measures);
     draw_charts();
   }
 
@@ -45,13 +42,20 @@ class ComparisonPage {
     text += fmt::format("<h1>{}</h1>\n{}{}", html_text(c_.plan.title), facts(), marks_);
 
     // The first screen: the question and the answers beside the first chart.
-    const string first = charts_.empty() ? "" : exchange(charts_.front(), "");
-    text += fmt::format("<div class=\"columns\"><div>{}{}</div><div>{}{}</div></div>\n", question(), answers(), first,
-                        trust());
-    text += correlations() + missing_;
-    if (charts_.size() > 1)
-      text += fmt::format("<h2>More charts</h2>\n<div class=\"columns\">{}</div>\n", joined(charts_, ""));
-    return text + ranking() + table_of_runs() + shared() + string(comparison_script()) + page_end();
+    string first;
+    if (!shown_.empty() && !charts_[0].empty()) {
+      first = charts_[0].front();
+      charts_[0].erase(charts_[0].begin());
+    }
+    text += fmt::format("<div class=\"columns\"><div>{}{}{}</div><div>{}{}</div></div>\n{}", question(), answers(),
+                        trust(), first, missing_, correlations());
+
+    for (size_t k = 0; k < shown_.size(); ++k)
+      text += fmt::format("<h2>{}</h2>\n<div class=\"columns\">{}{}</div>\n", html_text(label(shown_[k]->measure)),
+                          joined(charts_[k], ""), rankings(*shown_[k]));
+    if (!charts_.back().empty())
+      text += fmt::format("<h2>Further charts</h2>\n<div class=\"columns\">{}</div>\n", joined(charts_.back(), ""));
+    return text + table_of_runs() + shared() + string(comparison_script()) + page_end();
   }
 
  private:
@@ -59,36 +63,51 @@ class ComparisonPage {
   string label(size_t measure) const { return label_of(c_.measures[measure].name); }
   string label_of_parameter(size_t p) const { return label_of({names_[p], c_.plan.parameters[p].unit}); }
 
-  /// Heat maps, then charts along numbers, then along texts.
+  /// Of each measure that is shown: its heat map, then its charts. Charts of others come last.
   void draw_charts() {
-    const bool is_plane = c_.findings.variety == Variety::plane;
-    const auto parameters = is_plane ? heat_map_parameters(c_.plan, c_.outcomes) : nullopt;
-    for (const MeasureFinding& finding : c_.findings.measures)
-      if (parameters && !finding.is_constant && charts_.size() < most_heat_maps)
-        charts_.push_back(heat_table(heat_map(c_.outcomes, *parameters, finding.measure, most_heat_values), c_.plan,
-                                     c_.measures[finding.measure], c_.outcomes, c_.runs));
+    charts_.resize(shown_.size() + 1);
+    if (c_.findings.variety == Variety::plane)
+      if (const auto parameters = heat_map_parameters(c_.plan, c_.outcomes))
+        for (size_t k = 0; k < shown_.size(); ++k)
+          charts_[k].push_back(heat_table(heat_map(c_.outcomes, *parameters, shown_[k]->measure, most_heat_values),
+                                          c_.plan, c_.measures[shown_[k]->measure], c_.outcomes, c_.runs));
 
-    vector<Plot> plots = plots_of(c_.charts);
-    if (plots.size() > most_figures) plots.resize(most_figures);
-    if (!plots.empty()) {
-      if (const auto gnuplot = find_program("gnuplot")) {
-        PageFigures figures = draw_figures(std::move(plots), *gnuplot);
-        marks_ = std::move(figures.marks);
-        std::move(figures.figures.begin(), figures.figures.end(), std::back_inserter(charts_));
-      } else {
-        missing_ = fmt::format(
-            "<p class=\"doubtful\">{} left out, because gnuplot is not on the PATH: install it (on Debian: apt install "
-            "gnuplot-nox), and compare again with --force.</p>\n",
-            how_many(plots.size(), "chart is", "charts are"));
+    vector<Plot> plots;
+    vector<size_t> places;  // of plots, among charts_
+    for (const Chart& chart : chosen_charts(c_.plan, c_.measures, c_.outcomes, c_.findings)) {
+      const ChartData data = chart_data(chart, c_.plan, c_.measures, c_.outcomes, c_.findings.variety);
+      if (data.x.empty()) continue;
+      const auto of_chart = [&](const MeasureFinding* one) { return c_.measures[one->measure].name == chart.y; };
+      const auto place = size_t(ranges::find_if(shown_, of_chart) - shown_.begin());
+      if (!data.numeric) {
+        charts_[place].push_back(bar_table(data));
+      } else if (plots.size() < most_figures) {
+        plots.push_back(plot_of(data));
+        places.push_back(place);
       }
     }
+    draw_plots(std::move(plots), places);
+  }
 
-    for (const ChartData& chart : c_.charts)
-      if (!chart.numeric && !chart.x.empty()) charts_.push_back(bar_table(chart));
+  void draw_plots(vector<Plot> plots, const vector<size_t>& places) {
+    if (plots.empty()) return;
+    const auto gnuplot = find_program("gnuplot");
+    if (!gnuplot) {
+      missing_ = fmt::format(
+          "<p class=\"doubtful\">Without {}, because gnuplot is not on the PATH. Install it (on Debian: apt install "
+          "gnuplot-nox), and compare again with --force.</p>\n",
+          how_many(plots.size(), "chart", "charts"));
+      return;
+    }
+
+    const PageFigures figures = draw_figures(std::move(plots), *gnuplot);
+    marks_ = figures.marks;
+    for (size_t i = 0; i < places.size(); ++i) charts_[places[i]].push_back(figures.figures[i]);
   }
 
   string facts() const {
-    string text = fmt::format("<p><span class=\"flag\">{}</span>", how_many(c_.count, "run", "runs"));
+    string text = fmt::format("<p><span class=\"flag\">{}{}</span>", how_many(c_.count, "run", "runs"),
+                              c_.plan.seed ? fmt::format(" of {} scenarios", c_.outcomes.points()) : "");
     text += c_.failed == 0 ? "<span class=\"flag good\">none failed</span>"
                            : fmt::format("<span class=\"flag failed\">{} failed</span>", c_.failed);
     text += c_.doubtful == 0 ? "<span class=\"flag good\">none doubtful</span>"
@@ -104,16 +123,20 @@ class ComparisonPage {
     if (c_.outcomes.varied().empty()) return "<h2>What was varied</h2>\n<p>Nothing: the scenes are the same.</p>\n";
     string text =
         "<h2>What was varied</h2>\n<div class=\"wide\"><table><tr><th>parameter</th><th class=\"n\">values</th>"
-        "<th class=\"n\">from</th><th class=\"n\">to</th><th>unit</th></tr>\n";
+        "<th class=\"n\">from</th><th class=\"n\">to</th></tr>\n";
     for (const Varied& varied : c_.outcomes.varied()) {
       const Parameter& parameter = c_.plan.parameters[varied.parameter];
       text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(parameter.path));
-      if (varied.values.empty())
-        text += "<td class=\"t\" colspan=\"4\">tells repeats apart</td></tr>\n";
-      else
-        text += fmt::format("<td>{}</td><td>{}</td><td>{}</td><td class=\"t\">{}</td></tr>\n", varied.values.size(),
-                            html_text(value_text(varied.values.front())), html_text(value_text(varied.values.back())),
+      if (varied.values.empty()) {
+        text += fmt::format("<td>{}</td><td class=\"t\" colspan=\"2\">repeats of each</td></tr>\n",
+                            c_.outcomes.most_runs());
+        continue;
+      }
+      text += fmt::format("<td>{}</td>", varied.values.size());
+      for (const Cell* value : {&varied.values.front(), &varied.values.back()})
+        text += fmt::format("<td>{}{}{}</td>", html_text(shown_value(*value)), parameter.unit.empty() ? "" : " ",
                             html_text(parameter.unit));
+      text += "</tr>\n";
     }
     return text + "</table></div>\n";
   }
@@ -131,7 +154,7 @@ class ComparisonPage {
       const Difference& row = c_.differences.rows[i];
       text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(label_of(c_.plan.parameters[row.parameter])));
       for (const string& value : row.values)
-        text += fmt::format("<td class=\"t\">{}</td>", value.empty() ? "–" : html_text(value_text(cell_of(value))));
+        text += fmt::format("<td class=\"t\">{}</td>", value.empty() ? "–" : html_text(shown_value(cell_of(value))));
       text += "</tr>\n";
     }
     text += "</table></div>\n";
@@ -145,17 +168,13 @@ class ComparisonPage {
     string text;
     for (size_t k = 0; k < min(c_.findings.parameters.size(), most_named); ++k) {
       const size_t p = c_.findings.parameters[k];
-      const Varied& varied = c_.outcomes.varied()[p];
-      text += fmt::format(
-          "{}{}", text.empty() ? "" : ", ",
-          name_of_value({names_[p], c_.plan.parameters[p].unit}, value_text(varied.values[varied.of_point[point]])));
+      text += (text.empty() ? "" : ", ") +
+              name_of_value({names_[p], c_.plan.parameters[p].unit}, shown_value(c_.outcomes.value(point, p)));
     }
     return text;
   }
 
-  string extreme(const MeasureFinding& finding, const vector<size_t>& points, size_t equal) const {
-    if (points.empty()) return {};
-    const size_t point = points.front();
+  string extreme(const MeasureFinding& finding, size_t point, size_t equal) const {
     string text = fmt::format("<b>{}</b> {}<small>{}", looks_[finding.measure].text(mean(point, finding.measure)),
                               c_.runs.link(c_.outcomes.id(point)), html_text(values_of(point)));
     if (equal > 1) text += fmt::format("{}and in {} more", values_of(point).empty() ? "" : "; ", equal - 1);
@@ -163,31 +182,36 @@ class ComparisonPage {
   }
 
   string answers() const {
-    string text, constants;
-    for (const MeasureFinding& finding : c_.findings.measures) {
-      const string name = label(finding.measure);
-      if (finding.is_constant || finding.points == 0) {
-        constants += constants.empty() ? "" : ", ";
-        constants += finding.points == 0 ? name + " (undefined)" : name;
-        continue;
-      }
+    string text;
+    const bool decided = any_of(shown_, [](const MeasureFinding* one) { return one->strongest.has_value(); });
+    for (const MeasureFinding* finding : shown_) {
       // Of few runs the lowest is the last of the highest ones.
-      vector<size_t> lowest = finding.lowest;
-      if (lowest.empty() && !finding.highest.empty()) lowest = {finding.highest.back()};
-      const string trend = finding.strongest ? trend_of(finding.correlations[*finding.strongest],
-                                                        names_[c_.findings.parameters[*finding.strongest]])
-                                             : "";
-      text += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n", html_text(name),
-                          extreme(finding, finding.highest, finding.at_highest),
-                          extreme(finding, lowest, finding.at_lowest), trend);
+      const size_t lowest = finding->lowest.empty() ? finding->highest.back() : finding->lowest.front();
+      text += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td>", html_text(label(finding->measure)),
+                          extreme(*finding, finding->highest.front(), finding->at_highest),
+                          extreme(*finding, lowest, finding->at_lowest));
+      const auto strongest = finding->strongest;
+      if (decided)
+        text += fmt::format(
+            "<td>{}</td>",
+            strongest ? trend_of(finding->correlations[*strongest], names_[c_.findings.parameters[*strongest]]) : "–");
+      text += "</tr>\n";
     }
     if (!text.empty())
-      text =
+      text = fmt::format(
           "<h2>Highest and lowest</h2>\n<div class=\"wide\"><table class=\"answers\"><tr><th>measure</th>"
-          "<th>highest</th><th>lowest</th><th>decided by</th></tr>\n" +
-          text + "</table></div>\n";
-    if (!constants.empty()) text += fmt::format("<p>The same in all runs: {}.</p>\n", html_text(constants));
-    return text;
+          "<th>highest</th><th>lowest</th>{}</tr>\n{}</table></div>\n",
+          decided ? "<th>decided by</th>" : "", text);
+    return text + same_in_all();
+  }
+
+  string same_in_all() const {
+    string text;
+    for (const MeasureFinding& finding : c_.findings.measures)
+      if (finding.is_constant && finding.points == c_.outcomes.points() && c_.count > 1)
+        text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", label(finding.measure),
+                            short_number(mean(finding.highest.front(), finding.measure)));
+    return text.empty() ? text : fmt::format("<p>The same in all runs: {}.</p>\n", html_text(text));
   }
 
   string trust() const {
@@ -201,29 +225,20 @@ class ComparisonPage {
           "<li class=\"doubtful\">{} doubtful: figures may be wrong. The manifest.json of each has the "
           "reason.</li>",
           how_many(c_.doubtful, "run is", "runs are"));
-    for (const MeasureFinding& finding : c_.findings.measures)
-      if (c_.plan.seed && !finding.is_constant) text += repeats_of(finding);
+    for (const MeasureFinding* finding : shown_) text += repeats_of(*finding);
     return text + "</ul>\n";
   }
 
   /// The spread of repeats beside the differences between scenarios.
   string repeats_of(const MeasureFinding& finding) const {
-    double squares = 0;
-    size_t count = 0;
-    Spread means;
-    for (size_t i = 0; i < c_.outcomes.points(); ++i) {
-      const Spread spread = c_.outcomes.spread(i, finding.measure);
-      means.add(spread.mean());
-      if (spread.count() < 2) continue;
-      squares += spread.sd() * spread.sd();
-      ++count;
-    }
-    if (count == 0) return {};
-    const double sd = sqrt(squares / double(count)), range = means.max() - means.min();
-    string text = fmt::format("<li>{}: repeats spread by ± {} (standard deviation)", html_text(label(finding.measure)),
-                              short_number(sd));
-    if (range > 0) text += fmt::format(", {:.2g} % of what the scenarios differ by", 100 * sd / range);
-    return text + ".</li>";
+    if (!isfinite(finding.spread_of_repeats)) return {};
+    const size_t lowest = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
+    const double range = mean(finding.highest.front(), finding.measure) - mean(lowest, finding.measure);
+    const double share = finding.spread_of_repeats / range;
+    return fmt::format("<li>{}: repeats differ by ± {:.3g} (standard deviation), {}.</li>",
+                       html_text(label(finding.measure)), finding.spread_of_repeats,
+                       share < 1 ? fmt::format("{:.2g} % of the range of their means", 100 * share)
+                                 : "more than their means do: what differs may be chance");
   }
 
   string correlations() const {
@@ -235,10 +250,9 @@ class ComparisonPage {
     for (const size_t p : parameters) text += fmt::format("<th class=\"n\">{}</th>", html_text(label_of_parameter(p)));
     text += "</tr>\n";
 
-    for (const MeasureFinding& finding : c_.findings.measures) {
-      if (finding.is_constant) continue;
-      text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(label(finding.measure)));
-      for (const double correlation : finding.correlations)
+    for (const MeasureFinding* finding : shown_) {
+      text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(label(finding->measure)));
+      for (const double correlation : finding->correlations)
         text += isfinite(correlation) ? fmt::format("<td style=\"background:rgba({},{:.2f})\">{:.2f}</td>",
                                                     correlation > 0 ? "230,120,0" : "0,114,178",
                                                     0.75 * std::abs(correlation), correlation)
@@ -248,11 +262,13 @@ class ComparisonPage {
     return text + "</table></div>\n";
   }
 
-  string ranked(const MeasureFinding& finding, const char* title, const vector<size_t>& points) const {
+  string ranked(const MeasureFinding& finding, const string& title, const vector<size_t>& points) const {
     const vector<size_t>& parameters = c_.findings.parameters;
     const size_t named = min(parameters.size(), most_named);
     string text = fmt::format(
-        "<div class=\"wide\"><table class=\"rank\"><tr><th></th><th class=\"n\">{}</th><th>run</th>", title);
+        "<div><h3>{}</h3>\n<div class=\"wide\"><table class=\"rank\"><tr><th></th><th class=\"n\">value</th>"
+        "<th>run</th>",
+        title);
     for (size_t k = 0; k < named; ++k)
       text += fmt::format("<th class=\"n\">{}</th>", html_text(label_of_parameter(parameters[k])));
     text += "</tr>\n";
@@ -261,27 +277,30 @@ class ComparisonPage {
       const Spread spread = c_.outcomes.spread(points[i], finding.measure);
       text += fmt::format("<tr><td>{}</td><td>{}{}</td><td class=\"t\">{}</td>", i + 1,
                           looks_[finding.measure].text(spread.mean()),
-                          c_.plan.seed && spread.count() > 1 ? fmt::format(" ± {:.2g}", spread.sd()) : "",
+                          c_.plan.seed && spread.count() > 1 ? " ± " + looks_[finding.measure].text(spread.sd()) : "",
                           c_.runs.link(c_.outcomes.id(points[i])));
-      for (size_t k = 0; k < named; ++k) {
-        const Varied& varied = c_.outcomes.varied()[parameters[k]];
-        text += fmt::format("<td>{}</td>", html_text(value_text(varied.values[varied.of_point[points[i]]])));
-      }
+      for (size_t k = 0; k < named; ++k)
+        text += fmt::format("<td>{}</td>", html_text(shown_value(c_.outcomes.value(points[i], parameters[k]))));
       text += "</tr>\n";
     }
-    return text + "</table></div>\n";
+    return text + "</table></div></div>\n";
   }
 
-  string ranking() const {
-    string text;
-    for (const MeasureFinding& finding : c_.findings.measures) {
-      if (finding.is_constant || finding.points == 0) continue;
-      text += fmt::format("<details{}><summary>{}</summary><div class=\"columns\">{}{}</div></details>\n",
-                          text.empty() ? " open=\"\"" : "", html_text(label(finding.measure)),
-                          ranked(finding, "highest", finding.highest),
-                          finding.lowest.empty() ? "" : ranked(finding, "lowest", finding.lowest));
+  string rankings(const MeasureFinding& finding) const {
+    // Few runs are one list.
+    if (finding.highest.size() + finding.lowest.size() == finding.points) {
+      if (c_.findings.variety == Variety::runs) return {};  // the bars have them
+      vector<size_t> all = finding.highest;
+      all.insert(all.end(), finding.lowest.rbegin(), finding.lowest.rend());
+      return ranked(finding, "From the highest to the lowest", all);
     }
-    return text.empty() ? "" : "<h2>Ranking</h2>\n" + text;
+
+    const auto title = [](const char* end, size_t equal) {
+      return equal > 1 ? fmt::format("{}: {} equal", end, equal) : string(end);
+    };
+    return fmt::format("<div class=\"pair\">{}{}</div>\n",
+                       ranked(finding, title("Highest", finding.at_highest), finding.highest),
+                       ranked(finding, title("Lowest", finding.at_lowest), finding.lowest));
   }
 
   string table_of_runs() const {
@@ -315,8 +334,9 @@ class ComparisonPage {
   const PageContent& c_;
   vector<string> names_;      // short ones, by parameter
   vector<NumberLook> looks_;  // by measure
+  vector<const MeasureFinding*> shown_;
   string marks_, missing_;
-  vector<string> charts_;
+  vector<vector<string>> charts_;  // by shown_, then others
 };
 
 }  // namespace

@@ -2,7 +2,6 @@
 // index.html of a comparison: what was varied, which runs are highest and lowest, what decides, and a table of all
 // runs. All of it is readable without scripts, which only sort, filter and put runs side by side.
 
-#include "compare/charts.h"
 #include "compare/findings.h"
 #include "compare/parameter_sheet.h"
 #include "compare/run_table.h"
@@ -17,11 +16,10 @@ struct PageContent {
   const vector<Measure>& measures;
   const Outcomes& outcomes;
   const Findings& findings;
-  const vector<ChartData>& charts;
   const RunTable& runs;
   /// Of unrelated runs. Empty: they are related.
   const DifferenceList& differences;
-  vector<SceneValue> common{};                 // values that all scenes share
+  const vector<SceneValue>& common;            // values that all scenes share
   size_t count = 0, failed = 0, doubtful = 0;  // runs
 };
 

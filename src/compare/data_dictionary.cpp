@@ -35,15 +35,16 @@ struct SheetText {
   const char *name, *text;
 };
 constexpr SheetText sheets[] = {
-    {"Compare", "charts of the measures over the varied values, and below them their numbers"},
+    {"Compare", "the highest and lowest runs of each measure, rank correlations, heat maps and charts"},
+    {"Pivot", "means of the measures by two parameters, if two vary"},
     {"Summary",
      "a row for each run: the varied values (tinted), the measures, and what else differs; above them what does not"},
     {"Repeats",
      "a row for each scenario: mean, standard deviation (n - 1), minimum and maximum of its repeats, if any"},
-    {"Pivot", "means of the measures by two parameters, if two vary"},
     {"Series",
      "energy and bodies' motion over time, thinned; a column for each of a few scenarios, the mean of its repeats"},
     {"Collisions", "the first collisions of each run, on request"},
+    {"Points", "the numbers of the charts"},
     {"Parameters", "what varies, and the values that all runs share"},
     {"About", "this sheet"}};
 
@@ -125,8 +126,12 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
 
   // Each sheet's columns, in the order of the sheets.
   for (const SummaryColumn& text : summary_columns()) column("Summary", text.name, unit_of(text.name), text.meaning);
-  for (const Parameter& parameter : plan.parameters)
-    column("Summary", parameter.path, parameter.unit, "value of the scene that is varied");
+  constexpr size_t most_parameters = 30;
+  for (size_t p = 0; p < min(plan.parameters.size(), most_parameters); ++p)
+    column("Summary", plan.parameters[p].path, plan.parameters[p].unit, "value of the scene that is varied");
+  if (plan.parameters.size() > most_parameters)
+    column("Summary", fmt::format("and {} more", plan.parameters.size() - most_parameters), "",
+           "as the ones above; the sheet Parameters has all");
   for (const Measure& measure : measures)
     if (measure.column == nullptr) column("Summary", measure.name, unit_of(measure.name), meaning_of(measure));
 

@@ -29,6 +29,9 @@ struct MeasureFinding {
   vector<size_t> lowest;
   /// How many points have the very highest and the very lowest value.
   size_t at_highest = 0, at_lowest = 0;
+  /// Of repeats: the standard deviation between those of a point, the root of the mean square over all points. NaN: no
+  /// repeats.
+  double spread_of_repeats = numeric_limits<double>::quiet_NaN();
   /// By Findings::parameters: Spearman's rank correlation of the measure with it. NaN: undefined, or values that are
   /// no numbers.
   vector<double> correlations;
@@ -47,8 +50,15 @@ struct Findings {
 /// `unrelated`: the scenes have little in common.
 Findings findings_of(const Outcomes& outcomes, size_t measures, bool unrelated);
 
+/// The measures that differ between runs, at most so many. Of unrelated runs those that all runs have come alone, if
+/// there are any.
+vector<const MeasureFinding*> shown_findings(const Findings& findings, size_t most);
+
 /// How the points vary; of related runs.
 Variety variety_of(const Outcomes& outcomes);
+
+/// "let.angle from 10 to 82 (25 values), let.speed from 2 m/s to 14 m/s (25 values), 3 repeats".
+string varied_ranges(const ComparisonPlan& plan, const Outcomes& outcomes);
 
 /// Five lines or fewer, one for each measure that differs: its highest and lowest value, their runs, and the parameter
 /// with the strongest rank correlation.

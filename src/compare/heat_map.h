@@ -17,6 +17,9 @@ struct HeatMap {
   double mean(size_t row, size_t column) const { return means[row * columns.size() + column]; }
 };
 
+/// Indices of at most `most` of so many values, the first and the last among them.
+vector<size_t> evenly_spaced(size_t values, size_t most);
+
 /// The two parameters of a heat map: those of the first chart that has two, else the first two that vary independently,
 /// if their grid is mostly filled. None: there are no such two.
 optional<pair<size_t, size_t>> heat_map_parameters(const ComparisonPlan& plan, const Outcomes& outcomes);

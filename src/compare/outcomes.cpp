@@ -166,6 +166,7 @@ void Outcomes::finish() {
   }
 }
 
+/// Whether b has one value for each value of a.
 bool Outcomes::follows(const Varied& a, const Varied& b) const {
   constexpr uint32_t unknown = numeric_limits<uint32_t>::max();
   vector<uint32_t> of(a.values.size(), unknown);
@@ -174,17 +175,25 @@ bool Outcomes::follows(const Varied& a, const Varied& b) const {
     if (known != unknown && known != b.of_point[i]) return false;
     known = b.of_point[i];
   }
-  return true;
+
+  // Where each point has its own value of a, any b is a function of it. Indices of values are in order of size.
+  const bool says_nothing = a.values.size() == a.of_point.size() && a.numeric && b.numeric;
+  return !says_nothing || ranges::is_sorted(of) || ranges::is_sorted(of, std::greater<>());
 }
 
 vector<size_t> Outcomes::independent() const {
   vector<size_t> chosen;
-  for (size_t p = 0; p < varied_.size(); ++p) {
-    if (varied_[p].values.size() < 2) continue;
-    const bool new_one = none_of(chosen, [&](size_t other) { return follows(varied_[other], varied_[p]); });
-    if (new_one) chosen.push_back(p);
-  }
+  for (const bool numeric : {true, false})
+    for (size_t p = 0; p < varied_.size(); ++p) {
+      if (varied_[p].values.size() < 2 || varied_[p].numeric != numeric) continue;
+      const bool new_one = none_of(chosen, [&](size_t other) { return follows(varied_[other], varied_[p]); });
+      if (new_one) chosen.push_back(p);
+    }
   return chosen;
+}
+
+bool Outcomes::is_grid(size_t a, size_t b) const {
+  return varied_[a].values.size() * varied_[b].values.size() <= 2 * points();
 }
 
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,

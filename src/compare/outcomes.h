@@ -51,13 +51,23 @@ class Outcomes {
   string_view id(size_t point) const;
   /// The number of its complete runs.
   size_t runs(size_t point) const { return runs_[point]; }
+  /// The greatest number of complete runs of a point.
+  size_t most_runs() const { return runs_.empty() ? 0 : ranges::max(runs_); }
   Spread spread(size_t point, size_t measure) const;
   /// By the plan's parameters. The seed of repeats has no values.
   const vector<Varied>& varied() const { return varied_; }
   size_t every() const { return stride_; }  // 1: each run counts
 
-  /// The indices of parameters that vary, without those that follow from an earlier one.
+  /// The value of a parameter at a point.
+  const Cell& value(size_t point, size_t parameter) const {
+    return varied_[parameter].values[varied_[parameter].of_point[point]];
+  }
+
+  /// The indices of parameters that vary, without those that follow from another one: numbers first.
+  /// Of numbers that all differ nothing follows, unless the other number rises or falls with them.
   vector<size_t> independent() const;
+  /// Whether the runs fill at least half of the grid of two parameters' values.
+  bool is_grid(size_t a, size_t b) const;
 
  private:
   bool follows(const Varied& a, const Varied& b) const;

@@ -17,12 +17,13 @@ constexpr size_t most_in_cloud = 500;
 constexpr size_t heat_steps = 48;
 /// Of a map with more columns the numbers have no room.
 constexpr size_t most_numbered = 12;
-constexpr size_t most_bars = 40;
+constexpr size_t most_bar_rows = 40;
 
-/// "speed" of "speed (m/s)".
-string without_unit(const string& label, string_view unit) {
-  const string end = fmt::format(" ({})", unit);
-  return !unit.empty() && label.ends_with(end) ? label.substr(0, label.size() - end.size()) : label;
+/// "speed" and "m/s" of "speed (m/s)".
+pair<string, string> label_and_unit(const string& label) {
+  const size_t open = label.rfind(" (");
+  if (open == string::npos || !label.ends_with(")")) return {label, ""};
+  return {label.substr(0, open), label.substr(open + 2, label.size() - open - 3)};
 }
 
 PlotSeries series_of(const ChartData& chart, size_t k) {
@@ -43,23 +44,6 @@ PlotSeries series_of(const ChartData& chart, size_t k) {
     series.points.push_back(std::move(point));
   }
   return series;
-}
-
-Plot plot_of(const ChartData& chart) {
-  Plot plot;
-  plot.title = chart.title;
-  plot.scale = PlotScale::linear;
-  plot.x_label = chart.x_label;
-  plot.y_label = chart.y_label;
-
-  bool has_spread = false;
-  for (size_t k = 0; k < chart.lines.size(); ++k) {
-    plot.series.push_back(series_of(chart, k));
-    has_spread = has_spread || any_of(chart.lines[k].spread, [](double sd) { return sd > 0; });
-  }
-  if (has_spread) plot.subtitle = "bars: mean ± standard deviation of repeats";
-  if (!chart.note.empty()) plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + chart.note;
-  return plot;
 }
 
 /// Where its bar begins and how long it is, in per cent of the column.
@@ -87,17 +71,23 @@ vector<size_t> points_of(const HeatMap& map, const Outcomes& outcomes) {
   return points;
 }
 
-string value_text(const Cell& cell) {
-  return cell.is_number() ? short_number(cell.number) : cell.text;
-}
-
 }  // namespace
 
-vector<Plot> plots_of(const vector<ChartData>& charts) {
-  vector<Plot> plots;
-  for (const ChartData& chart : charts)
-    if (chart.numeric && !chart.x.empty()) plots.push_back(plot_of(chart));
-  return plots;
+Plot plot_of(const ChartData& chart) {
+  Plot plot;
+  plot.title = chart.title;
+  plot.scale = PlotScale::linear;
+  tie(plot.x_label, plot.x_unit) = label_and_unit(chart.x_label);
+  tie(plot.y_label, plot.y_unit) = label_and_unit(chart.y_label);
+
+  bool has_spread = false;
+  for (size_t k = 0; k < chart.lines.size(); ++k) {
+    plot.series.push_back(series_of(chart, k));
+    has_spread = has_spread || any_of(chart.lines[k].spread, [](double sd) { return sd > 0; });
+  }
+  if (has_spread) plot.subtitle = "bars: mean ± standard deviation of repeats";
+  if (!chart.note.empty()) plot.subtitle += (plot.subtitle.empty() ? "" : "; ") + chart.note;
+  return plot;
 }
 
 string bar_table(const ChartData& chart) {
@@ -119,7 +109,7 @@ string bar_table(const ChartData& chart) {
     text += "</tr>\n";
   }
 
-  const size_t shown = min(chart.x.size(), most_bars);
+  const size_t shown = min(chart.x.size(), most_bar_rows);
   for (size_t row = 0; row < shown; ++row) {
     text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(chart.x[row].text));
     for (const ChartLine& line : chart.lines) {
@@ -171,11 +161,11 @@ string heat_table(const HeatMap& map, const ComparisonPlan& plan, const Measure&
       html_text(label_of(measure.name)), html_text(label_of({names[0], rows.unit})),
       html_text(label_of({names[1], columns.unit})), has_numbers ? "" : " class=\"fine\"");
   for (const size_t column : map.columns)
-    text += fmt::format("<th><span>{}</span></th>", html_text(value_text(across.values[column])));
+    text += fmt::format("<th><span>{}</span></th>", html_text(shown_value(across.values[column])));
   text += "</tr>\n";
 
   for (size_t i = 0; i < map.rows.size(); ++i) {
-    text += fmt::format("<tr><th>{}</th>", html_text(value_text(down.values[map.rows[i]])));
+    text += fmt::format("<tr><th>{}</th>", html_text(shown_value(down.values[map.rows[i]])));
     for (size_t k = 0; k < map.columns.size(); ++k) {
       const double mean = map.mean(i, k);
       if (!isfinite(mean)) {
@@ -185,8 +175,8 @@ string heat_table(const HeatMap& map, const ComparisonPlan& plan, const Measure&
 
       const size_t point = points[i * map.columns.size() + k];
       const string to = point < outcomes.points() ? runs.anchor(outcomes.id(point)) : "";
-      const string title = fmt::format("{} = {}, {} = {}: {}", names[0], value_text(down.values[map.rows[i]]), names[1],
-                                       value_text(across.values[map.columns[k]]), short_number(mean));
+      const string title = fmt::format("{} = {}, {} = {}: {}", names[0], shown_value(down.values[map.rows[i]]),
+                                       names[1], shown_value(across.values[map.columns[k]]), short_number(mean));
       text += fmt::format(
           "<td class=\"{}\"><a{} title=\"{}\">{}</a></td>", heat_class(high > low ? (mean - low) / (high - low) : 0.5),
           to.empty() ? "" : fmt::format(" href=\"{}\"", to), html_text(title), has_numbers ? look.text(mean) : "");

@@ -10,8 +10,8 @@
 
 namespace carom {
 
-/// The charts along numbers, as plots.
-vector<Plot> plots_of(const vector<ChartData>& charts);
+/// A chart along numbers, as a plot.
+Plot plot_of(const ChartData& chart);
 
 /// A chart along texts: a row for each, with bars.
 string bar_table(const ChartData& chart);

@@ -8,8 +8,12 @@ namespace carom {
 string_view comparison_style() {
   return R"(.answers td{vertical-align:top;text-align:left}
 .answers b{font-size:17px}
+.answers b.p{font-size:inherit}
+.answers{min-width:100%}
 .answers small{display:block}
 .rank td:first-child{color:#5b6675}
+.rank td{white-space:nowrap}
+.pair{display:flex;flex-wrap:wrap;gap:0 28px}
 .heat table{table-layout:fixed;width:100%;border-collapse:separate;border-spacing:1px}
 .heat th{padding:0 5px;border:0;background:none;font-weight:400;font-size:12px;text-align:center}
 .heat th:first-child{width:62px;text-align:right}
@@ -32,6 +36,8 @@ string_view comparison_style() {
 #runs th[aria-sort=ascending] button::after{content:" \25B2"}
 #runs th[aria-sort=descending] button::after{content:" \25BC"}
 #runs th.v{background:#e8f0f8}
+#runs td{vertical-align:middle}
+#runs td:first-child{white-space:nowrap}
 #runs tr:hover td{background:#f3f7fb}
 #runs tr{scroll-margin-top:90px}
 #runs tr:target td,#runs tr.on td{background:#ddebfa}

@@ -13,6 +13,7 @@
 #include "files/folders.h"
 #include "files/run_folder.h"
 #include "scene/film_format.h"
+#include "scene/output_kinds.h"
 #include "std.h"
 
 namespace carom {

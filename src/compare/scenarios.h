@@ -20,6 +20,9 @@ struct ChosenScenarios {
 ChosenScenarios chosen_scenarios(const ComparisonPlan& plan, const Outcomes& outcomes,
                                  const vector<size_t>& point_of_run, bool unrelated);
 
+/// A number with at most five digits, or the text.
+string shown_value(const Cell& cell);
+
 /// For each path its last words, as many as tell it from the others: "restitution", "position.z".
 vector<string> short_names(const vector<string>& paths);
 

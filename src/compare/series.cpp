@@ -207,7 +207,7 @@ vector<PlacedSeries> write_series(Worksheet& sheet, const SeriesGatherer& series
 
   sheet.fit_table(least);
   sheet.freeze(1, 1);
-  sheet.print_table(0);
+  sheet.print_first_page();
   return placed;
 }
 

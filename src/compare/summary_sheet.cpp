@@ -92,7 +92,7 @@ void SummarySheet::add(size_t number, const RunRecord& run) {
   row.end();
 }
 
-/// Parameters, measures, then the others that differ. Of unrelated runs, parameters that some of them lack are left
+/// Parameters, measures, and then, not printed, the others that differ. Of unrelated runs, parameters that some of them lack are left
 /// out.
 void SummarySheet::choose_columns() {
   const auto add = [&](const auto& belongs) {
@@ -103,6 +103,7 @@ void SummarySheet::choose_columns() {
   if (!unrelated_) add([](const Column& column) { return column.parameter.has_value(); });
   for (const Measure& measure : measures_)
     add([&](const Column& column) { return !column.parameter && column.name == measure.name; });
+  printed_ = shown_.size();
   add([&](const Column& column) { return !column.parameter && (count_ < 2 || !column.is_constant); });
 }
 
@@ -176,7 +177,7 @@ void SummarySheet::finish() {
 
   sheet_.fit_table();
   sheet_.freeze(first_row(), 1);
-  sheet_.print_table(head_row_);
+  sheet_.print_table(head_row_, printed_);
 }
 
 /// Tints rows that are not `done`, in any order of sorting.

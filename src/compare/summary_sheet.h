@@ -65,6 +65,7 @@ class SummarySheet {
   vector<Column> columns_;  // of the table
   vector<size_t> shown_;    // of the sheet: indices of columns_
   vector<string> heads_;    // of the sheet
+  size_t printed_ = 0;      // of the sheet: the first columns, which are printed
   size_t head_row_ = 0;
   Worksheet& sheet_;
   unique_ptr<OutputFile> table_;

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <new>
+#include <numeric>
 
 #include "files/manifest.h"
 #include "files/run_folder.h"
@@ -57,6 +58,9 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
       format_set_bold(format);
       format_set_font_size(format, 14);
       break;
+    case CellStyle::section:
+      format_set_bold(format);
+      break;
     case CellStyle::note:
       format_set_font_color(format, grey);
       break;
@@ -64,6 +68,27 @@ lxw_format* make_format(lxw_workbook* book, CellStyle style) {
     case CellStyle::wrapped:
       format_set_text_wrap(format);
       format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
+      break;
+
+    case CellStyle::fitted:
+    case CellStyle::fitted_name:
+    case CellStyle::fitted_varied:
+      format_set_shrink(format);
+      if (style != CellStyle::fitted) format_set_align(format, LXW_ALIGN_CENTER);
+      if (style == CellStyle::fitted_varied) format_set_bg_color(format, tint);
+      break;
+    case CellStyle::fitted_header:
+    case CellStyle::turned_header:
+      format_set_bold(format);
+      format_set_bg_color(format, style == CellStyle::fitted_header ? header_tint : varied_header_tint);
+      format_set_bottom(format, LXW_BORDER_THIN);
+      format_set_shrink(format);
+      format_set_align(format, LXW_ALIGN_CENTER);
+      if (style == CellStyle::turned_header) format_set_rotation(format, 90);
+      break;
+    case CellStyle::total:
+      format_set_bold(format);
+      format_set_shrink(format);
       break;
 
     case CellStyle::doubtful:
@@ -126,7 +151,7 @@ lxw_format* Worksheet::format(CellStyle style, const NumberLook* look) const {
 }
 
 void Worksheet::widen(size_t column, size_t characters, CellStyle style) {
-  if (style == CellStyle::title || style == CellStyle::note) return;
+  if (style == CellStyle::title || style == CellStyle::section || style == CellStyle::note) return;
   if (widths_.size() <= column) widths_.resize(column + 1);
   widths_[column] = max(widths_[column], characters);
 }
@@ -156,6 +181,15 @@ void Worksheet::cell(size_t row, size_t column, const Cell& cell, CellStyle styl
     text(row, column, without_guard(cell.text), style);
 }
 
+void Worksheet::wide(size_t row, size_t column, size_t columns, const Cell& value, CellStyle style,
+                     const NumberLook* look) {
+  // Merged cells take their content afterwards, as one cell.
+  if (columns > 1)
+    must(worksheet_merge_range(sheet_, to_row(row), to_column(column), to_row(row), to_column(column + columns - 1), "",
+                               format(style, look)));
+  cell(row, column, value, style, look);
+}
+
 void Worksheet::formula(size_t row, size_t column, const string& formula, double value, CellStyle style,
                         const NumberLook* look) {
   widen(column, look == nullptr ? general_width : look->width(), style);
@@ -175,6 +209,10 @@ void Worksheet::set_head_row(size_t row, size_t lines) {
   worksheet_set_row(sheet_, to_row(row), (double(lines) + 0.25) * line_height, nullptr);
 }
 
+void Worksheet::set_heights(size_t first, size_t end, double height) {
+  for (size_t row = first; row < end; ++row) worksheet_set_row(sheet_, to_row(row), height, nullptr);
+}
+
 void Worksheet::note(size_t row, size_t columns, string_view text, double width) {
   const string shown = shortened(text, longest_text);
   const double lines = ceil(1.1 * double(letters_of(shown)) / max(width, 1.0));
@@ -188,13 +226,21 @@ void Worksheet::note(size_t row, size_t columns, string_view text, double width)
 
 void Worksheet::fit(size_t column, double least, double most, double more) {
   const double needed = column < widths_.size() ? double(widths_[column]) + 1 + more : least;
-  const auto number = to_column(column);
-  worksheet_set_column(sheet_, number, number, clamp(needed, least, most), nullptr);
-  total_ += clamp(needed, least, most);
+  set_width(column, clamp(needed, least, most));
+}
+
+void Worksheet::set_width(size_t column, double width) {
+  worksheet_set_column(sheet_, to_column(column), to_column(column), width, nullptr);
+  if (fitted_.size() <= column) fitted_.resize(column + 1);
+  fitted_[column] = width;
+}
+
+/// Of the first columns together, in characters.
+double Worksheet::width_of(size_t columns) const {
+  return std::accumulate(fitted_.begin(), fitted_.begin() + ptrdiff_t(min(columns, fitted_.size())), 0.0);
 }
 
 void Worksheet::fit_all(double least, double most, double more) {
-  total_ = 0;
   for (size_t column = 0; column < widths_.size(); ++column) fit(column, least, most, more);
 }
 
@@ -203,13 +249,9 @@ void Worksheet::fit_table(double least) {
   const size_t columns = max(widths_.size(), words_.size());
   widths_.resize(columns);
   words_.resize(columns);
-  total_ = 0;
   for (size_t column = 0; column < columns; ++column) {
     const double needed = double(max(widths_[column] + 1, words_[column])) + button;
-    const double width = clamp(needed, least, most);
-    const auto number = to_column(column);
-    worksheet_set_column(sheet_, number, number, width, nullptr);
-    total_ += width;
+    set_width(column, clamp(needed, least, most));
   }
 }
 
@@ -230,7 +272,7 @@ void Worksheet::set_paper() {
 
 void Worksheet::print_wide() {
   set_paper();
-  const double pages = ceil(total_ / characters_across);
+  const double pages = ceil(width_of(fitted_.size()) / characters_across);
   worksheet_fit_to_pages(sheet_, uint16_t(clamp(pages, 1.0, 1000.0)), 0);
 }
 
@@ -242,10 +284,31 @@ void Worksheet::print_pages(const vector<size_t>& rows) {
   worksheet_set_h_pagebreaks(sheet_, breaks.data());
 }
 
-void Worksheet::print_table(size_t head_row) {
+void Worksheet::print_first_page() {
+  constexpr size_t rows = 45;
+  size_t columns = 1;
+  while (columns < fitted_.size() && width_of(columns + 1) < characters_across) ++columns;
+  set_paper();
+  worksheet_fit_to_pages(sheet_, 1, 1);
+  worksheet_print_area(sheet_, 0, 0, to_row(rows - 1), to_column(columns - 1));
+}
+
+void Worksheet::print_table(size_t head_row, size_t columns) {
   print_wide();
   worksheet_repeat_rows(sheet_, to_row(head_row), to_row(head_row));
-  worksheet_repeat_columns(sheet_, 0, 0);
+  if (columns == 0) {
+    worksheet_repeat_columns(sheet_, 0, 0);
+    return;
+  }
+
+  // A narrow table takes the paper's height.
+  constexpr double characters_upright = 110;
+  constexpr uint16_t percent = 70;
+  if (width_of(columns) < characters_upright) {
+    worksheet_set_portrait(sheet_);
+    worksheet_set_print_scale(sheet_, percent);
+  }
+  worksheet_print_area(sheet_, 0, 0, sheet_->dim_rowmax, to_column(columns - 1));
 }
 
 Workbook::Workbook(const FilePlace& place, string name, const string& title)

@@ -32,10 +32,18 @@ enum class CellStyle {
   header,
   varied_header,
   title,
+  section,  // the title of a part
   note,
   wrapped,
-  doubtful,  // of a row with doubtful results
-  failed     // of a row without results
+  // Shown smaller where a cell is too narrow:
+  fitted,
+  fitted_name,  // in the middle, as the next two
+  fitted_varied,
+  fitted_header,
+  turned_header,  // read from below
+  total,          // bold: what matters most of a row
+  doubtful,       // of a row with doubtful results
+  failed          // of a row without results
 };
 
 /// The limits of a sheet.
@@ -76,11 +84,16 @@ class Worksheet {
               const NumberLook* look = nullptr);
   void cell(size_t row, size_t column, const Cell& cell, CellStyle style = CellStyle::plain,
             const NumberLook* look = nullptr);
+  /// A cell over several columns, of a sheet that is not streamed.
+  void wide(size_t row, size_t column, size_t columns, const Cell& cell, CellStyle style = CellStyle::plain,
+            const NumberLook* look = nullptr);
   /// `value`: the present result of the formula.
   void formula(size_t row, size_t column, const string& formula, double value, CellStyle style = CellStyle::plain,
                const NumberLook* look = nullptr);
   /// The head of a column. Its text is broken between words.
   void head(size_t row, size_t column, string_view text, CellStyle style = CellStyle::header);
+  /// Sets the height (points) of each row from `first` on, before `end`.
+  void set_heights(size_t first, size_t end, double height);
   /// Sets the height of a row of heads. To be called before its first cell.
   void set_head_row(size_t row, size_t lines = 3);
   /// A text over several columns, of together `width` characters, in as many lines as it needs.
@@ -96,8 +109,11 @@ class Worksheet {
   void print_wide();
   /// Fits the width of the sheet to one page, with a page before each of these rows where the spreadsheet allows it.
   void print_pages(const vector<size_t>& rows);
-  /// The same, with the row of heads and the first column on each page.
-  void print_table(size_t head_row);
+  /// Prints the first page of a sheet of numbers that only charts and programs read.
+  void print_first_page();
+  /// The same as print_wide(), with the row of heads and the first column on each page.
+  /// `columns`: the first ones alone; 0: all.
+  void print_table(size_t head_row, size_t columns = 0);
 
   lxw_worksheet* get() const { return sheet_; }
   lxw_format* format(CellStyle style, const NumberLook* look = nullptr) const;
@@ -105,12 +121,14 @@ class Worksheet {
  private:
   void widen(size_t column, size_t characters, CellStyle style);
   void set_paper();
+  void set_width(size_t column, double width);
+  double width_of(size_t columns) const;
 
   lxw_worksheet* sheet_;
   CellFormats& formats_;
   vector<size_t> widths_;  // characters, by column
   vector<size_t> words_;   // of the longest word in the head
-  double total_ = 0;       // width of the table
+  vector<double> fitted_;  // widths of the columns that were fitted
 };
 
 class Workbook {

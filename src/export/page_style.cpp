@@ -11,7 +11,7 @@ string_view page_style() {
 body{margin:0 auto;max-width:1640px;padding:16px clamp(12px,2.5vw,40px) 60px;color:#1c2430;background:#fff;
 font:15px/1.45 system-ui,-apple-system,"Segoe UI",Roboto,"Noto Sans","DejaVu Sans",sans-serif}
 h1{font-size:26px;line-height:1.2;margin:0 0 6px;overflow-wrap:anywhere}
-h2{font-size:19px;margin:34px 0 10px;padding-top:10px;border-top:1px solid #d8dde4}
+h2{font-size:19px;margin:26px 0 8px;padding-top:8px;border-top:1px solid #d8dde4}
 h3{font-size:15px;margin:14px 0 6px}
 p{margin:6px 0;max-width:100ch}
 a{color:#0b5cad;text-decoration:none}
@@ -33,6 +33,7 @@ th.n{text-align:right}
 td.t{overflow-wrap:anywhere}
 .columns{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,460px),1fr));gap:14px 28px;align-items:start}
 .columns>*{min-width:0}
+.columns>div>h2:first-child,.columns>div>h3:first-child{margin-top:0}
 details{margin:8px 0}
 summary{cursor:pointer;color:#0b5cad}
 figure{margin:0 0 12px;max-width:720px;break-inside:avoid}

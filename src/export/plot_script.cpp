@@ -16,7 +16,7 @@ namespace {
 /// The ratio of its upper to its lower end on a logarithmic axis, and its part of a linear one.
 constexpr double shortest_bar = 1.2, shortest_part = 0.02;
 /// Marks of more points than these are smaller.
-constexpr size_t few_points = 60;
+constexpr size_t few_points = 60, few_on_line = 20;
 
 /// Colours that are distinct for every kind of colour vision (Okabe & Ito 2008), and gnuplot's numbers of marks.
 struct PlotStyle {
@@ -131,7 +131,8 @@ class PlotLayers {
       return fmt::format("points linetype 1 linecolor {} pointtype {} pointsize {}", color, mark,
                          series.points.size() > few_points ? 0.6 : 0.9);
     if (series.form == PlotForm::marks)
-      return fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize 1.3", color, mark);
+      return fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize {}", color, mark,
+                         series.points.size() > few_on_line ? 0.8 : 1.3);
     return fmt::format("lines linetype 1 linecolor {} linewidth 2 dashtype {}", color,
                        series.form == PlotForm::dashes ? "(8,8)" : "solid");
   }

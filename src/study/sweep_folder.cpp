@@ -22,6 +22,7 @@
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
+#include "scene/output_kinds.h"
 #include "scene/path_field.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"

@@ -1,0 +1,185 @@
+// Ranks and correlations are those of points: runs, or means of repeats.
+// A rank correlation says nothing of its curve, so that it holds for measures of any scale.
+#include "compare/findings.h"
+
+#include <fmt/format.h>
+
+#include "compare/scenarios.h"
+#include "numerics/rank_correlation.h"
+#include "std.h"
+
+namespace carom {
+namespace {
+
+/// Differences of values below this share of them are rounding.
+constexpr double rounding = 1e-12;
+
+/// The greatest rank correlation by chance, of 19 in 20 cases without a relation (Kendall and Gibbons 1990, section
+/// 4.7): its standard deviation for n points is 1 / sqrt(n - 1). Of few points even 1 may be chance, and is shown.
+double chance(size_t points) {
+  return points < 2 ? infinity : min(0.999, 1.96 / sqrt(double(points) - 1));
+}
+
+void rank(MeasureFinding& finding, const vector<double>& values) {
+  vector<size_t> order;
+  for (size_t i = 0; i < values.size(); ++i)
+    if (isfinite(values[i])) order.push_back(i);
+  finding.points = order.size();
+  if (order.empty()) return;
+
+  ranges::stable_sort(order, [&](size_t a, size_t b) { return values[a] > values[b]; });
+  const double high = values[order.front()], low = values[order.back()];
+  finding.is_constant = high - low <= rounding * max(std::abs(high), std::abs(low));
+  finding.at_highest = size_t(ranges::count(values, high));
+  finding.at_lowest = size_t(ranges::count(values, low));
+
+  // The lowest first, those of equal values in the order of the runs.
+  const size_t tops = min(order.size(), MeasureFinding::most_ranked);
+  finding.highest.assign(order.begin(), order.begin() + ptrdiff_t(tops));
+  order.erase(order.begin(), order.begin() + ptrdiff_t(tops));
+  ranges::stable_sort(order, [&](size_t a, size_t b) {
+    return values[a] != values[b] ? values[a] < values[b] : a < b;
+  });
+  order.resize(min(order.size(), MeasureFinding::most_ranked));
+  finding.lowest = std::move(order);
+}
+
+double spread_of_repeats(const Outcomes& outcomes, size_t measure) {
+  double squares = 0, count = 0;
+  for (size_t i = 0; i < outcomes.points(); ++i) {
+    const double sd = outcomes.spread(i, measure).sd();
+    if (!isfinite(sd)) continue;
+    squares += sd * sd;
+    ++count;
+  }
+  return count > 0 ? sqrt(squares / count) : numeric_limits<double>::quiet_NaN();
+}
+
+void correlate(MeasureFinding& finding, const vector<double>& values, const vector<vector<double>>& parameters) {
+  for (size_t k = 0; k < parameters.size(); ++k) {
+    finding.correlations.push_back(parameters[k].empty() ? numeric_limits<double>::quiet_NaN()
+                                                         : rank_correlation(parameters[k], values));
+    const double strength = std::abs(finding.correlations[k]);
+    if (!(strength > chance(finding.points))) continue;
+    if (!finding.strongest || strength > std::abs(finding.correlations[*finding.strongest])) finding.strongest = k;
+  }
+}
+
+/// "15 in r0001 (restitution = 0.5)", "0 in r0003 and 2 more".
+string text_of(double value, size_t point, size_t equal, const Findings& findings, const ComparisonPlan& plan,
+               const Outcomes& outcomes) {
+  string text = fmt::format("{} in {}", shown_value(Cell{{}, value}), outcomes.id(point));
+  if (findings.variety == Variety::runs) return text;
+  if (equal > 1) return text + fmt::format(" and {} more", equal - 1);
+
+  constexpr size_t most = 3;
+  vector<string> paths;
+  for (const size_t p : findings.parameters) paths.push_back(plan.parameters[p].path);
+  const vector<string> names = short_names(paths);
+  string values;
+  for (size_t k = 0; k < min(names.size(), most); ++k)
+    values += fmt::format("{}{} = {}", k == 0 ? "" : ", ", names[k],
+                          shown_value(outcomes.value(point, findings.parameters[k])));
+  return text + (values.empty() ? "" : fmt::format(" ({})", values));
+}
+
+}  // namespace
+
+Variety variety_of(const Outcomes& outcomes) {
+  const vector<size_t> parameters = outcomes.independent();
+  if (parameters.empty()) return Variety::runs;
+  if (parameters.size() == 1) return Variety::line;
+  return parameters.size() == 2 && outcomes.is_grid(parameters[0], parameters[1]) ? Variety::plane : Variety::samples;
+}
+
+Findings findings_of(const Outcomes& outcomes, size_t measures, bool unrelated) {
+  Findings findings;
+  if (!unrelated) {
+    findings.variety = variety_of(outcomes);
+    findings.parameters = outcomes.independent();
+  }
+
+  // The values of each parameter, of which texts have no order.
+  vector<vector<double>> parameters;
+  for (const size_t p : findings.parameters) {
+    parameters.emplace_back();
+    for (size_t i = 0; outcomes.varied()[p].numeric && i < outcomes.points(); ++i)
+      parameters.back().push_back(outcomes.value(i, p).number);
+  }
+
+  for (size_t k = 0; k < measures; ++k) {
+    MeasureFinding& finding = findings.measures.emplace_back();
+    finding.measure = k;
+    vector<double> values;
+    for (size_t i = 0; i < outcomes.points(); ++i) values.push_back(outcomes.spread(i, k).mean());
+    rank(finding, values);
+    finding.spread_of_repeats = spread_of_repeats(outcomes, k);
+    correlate(finding, values, parameters);
+  }
+  return findings;
+}
+
+string varied_ranges(const ComparisonPlan& plan, const Outcomes& outcomes) {
+  string text;
+  for (const Varied& varied : outcomes.varied()) {
+    if (varied.parameter == plan.seed || varied.values.empty()) continue;
+    const Parameter& parameter = plan.parameters[varied.parameter];
+    const auto value = [&](const Cell& cell) {
+      return shown_value(cell) + (parameter.unit.empty() ? "" : " " + parameter.unit);
+    };
+
+    constexpr size_t most_listed = 4;
+    text += (text.empty() ? "" : "; ") + parameter.path;
+    if (varied.numeric && varied.values.size() > most_listed) {
+      text += fmt::format(" from {} to {} ({} values)", value(varied.values.front()), value(varied.values.back()),
+                          varied.values.size());
+      continue;
+    }
+    for (size_t k = 0; k < min(varied.values.size(), most_listed); ++k)
+      text += (k == 0 ? " " : ", ") + value(varied.values[k]);
+    if (varied.values.size() > most_listed) text += fmt::format(" and {} more", varied.values.size() - most_listed);
+  }
+
+  if (plan.seed && outcomes.points() > 0) text += fmt::format("; up to {} seeds of each", outcomes.most_runs());
+  return text;
+}
+
+vector<const MeasureFinding*> shown_findings(const Findings& findings, size_t most) {
+  size_t all = 0;
+  for (const MeasureFinding& finding : findings.measures) all = max(all, finding.points);
+
+  vector<const MeasureFinding*> shown;
+  for (const bool of_all : {true, false}) {
+    if (!shown.empty() && findings.variety == Variety::runs) break;
+    for (const MeasureFinding& finding : findings.measures)
+      if (finding.points > 1 && !finding.is_constant && (finding.points == all) == of_all) shown.push_back(&finding);
+  }
+
+  ranges::sort(shown, {}, &MeasureFinding::measure);
+  shown.resize(min(shown.size(), most));
+  return shown;
+}
+
+vector<pair<string, string>> lines_of(const Findings& findings, const ComparisonPlan& plan,
+                                      const vector<Measure>& measures, const Outcomes& outcomes) {
+  constexpr size_t most_lines = 5;
+  vector<pair<string, string>> lines;
+  for (const MeasureFinding* shown : shown_findings(findings, most_lines)) {
+    const MeasureFinding& finding = *shown;
+    const size_t high = finding.highest.front();
+    const size_t low = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
+    const auto value = [&](size_t point) { return outcomes.spread(point, finding.measure).mean(); };
+    string text = fmt::format("most {}, least {}",
+                              text_of(value(high), high, finding.at_highest, findings, plan, outcomes),
+                              text_of(value(low), low, finding.at_lowest, findings, plan, outcomes));
+
+    if (finding.strongest)
+      text += fmt::format("; strongest: {}, rank correlation {:.2f}",
+                          plan.parameters[findings.parameters[*finding.strongest]].path,
+                          finding.correlations[*finding.strongest]);
+    lines.emplace_back(measures[finding.measure].name, std::move(text));
+  }
+  return lines;
+}
+
+}  // namespace carom
