@@ -41,20 +41,23 @@ class ComparisonPage {
     string text = page_head(c_.plan.title, string(comparison_style()) + heat_style());
     text += fmt::format("<h1>{}</h1>\n{}{}", html_text(c_.plan.title), facts(), marks_);
 
-    // The first screen: the question and the answers beside the first chart.
+    // The first screen: the question and the answers beside the first chart, or of unrelated runs beside all bars.
     string first;
-    if (!shown_.empty() && !charts_[0].empty()) {
-      first = charts_[0].front();
-      charts_[0].erase(charts_[0].begin());
+    for (size_t k = 0; k < shown_.size() && (k == 0 || c_.findings.variety == Variety::runs); ++k) {
+      if (charts_[k].empty()) continue;
+      first += charts_[k].front();
+      charts_[k].erase(charts_[k].begin());
     }
-    text += fmt::format("<div class=\"columns\"><div>{}{}{}</div><div>{}{}</div></div>\n{}", question(), answers(),
+    text += fmt::format("<div class=\"columns\"><div>{}{}{}</div><div>{}{}{}</div></div>\n", question(), answers(),
                         trust(), first, missing_, correlations());
 
-    for (size_t k = 0; k < shown_.size(); ++k)
-      text += fmt::format("<h2>{}</h2>\n<div class=\"columns\">{}{}</div>\n", html_text(label(shown_[k]->measure)),
-                          joined(charts_[k], ""), rankings(*shown_[k]));
+    for (size_t k = 0; k < shown_.size(); ++k) {
+      const string block = joined(charts_[k], "") + rankings(*shown_[k]);
+      if (!block.empty())
+        text += fmt::format("<h2>{}</h2>\n<div class=\"row\">{}</div>\n", html_text(label(shown_[k]->measure)), block);
+    }
     if (!charts_.back().empty())
-      text += fmt::format("<h2>Further charts</h2>\n<div class=\"columns\">{}</div>\n", joined(charts_.back(), ""));
+      text += fmt::format("<h2>Further charts</h2>\n<div class=\"row\">{}</div>\n", joined(charts_.back(), ""));
     return text + table_of_runs() + shared() + string(comparison_script()) + page_end();
   }
 
@@ -244,9 +247,7 @@ class ComparisonPage {
   string correlations() const {
     const vector<size_t>& parameters = c_.findings.parameters;
     if (parameters.size() < 2) return {};
-    string text =
-        "<h2>Rank correlations</h2>\n<p class=\"quiet\">1: the measure always rises with the parameter. -1: it always "
-        "falls. 0: neither; it may still rise and then fall.</p>\n<div class=\"wide\"><table><tr><th>measure</th>";
+    string text = "<h3>Rank correlations</h3>\n<div class=\"wide\"><table><tr><th>measure</th>";
     for (const size_t p : parameters) text += fmt::format("<th class=\"n\">{}</th>", html_text(label_of_parameter(p)));
     text += "</tr>\n";
 
@@ -259,7 +260,9 @@ class ComparisonPage {
                                       : "<td>–</td>";
       text += "</tr>\n";
     }
-    return text + "</table></div>\n";
+    return text +
+           "</table></div>\n<p class=\"quiet\">1: the measure rises whenever the parameter does. -1: it falls. Near 0: "
+           "neither; it may rise and then fall, which the charts show.</p>\n";
   }
 
   string ranked(const MeasureFinding& finding, const string& title, const vector<size_t>& points) const {

@@ -13,6 +13,9 @@ string_view comparison_style() {
 .answers small{display:block}
 .rank td:first-child{color:#5b6675}
 .rank td{white-space:nowrap}
+.row{display:flex;flex-wrap:wrap;gap:14px 28px;align-items:flex-start}
+.row>figure{flex:1 1 440px;min-width:0;max-width:740px}
+.row>div{max-width:100%}
 .pair{display:flex;flex-wrap:wrap;gap:0 28px}
 .heat table{table-layout:fixed;width:100%;border-collapse:separate;border-spacing:1px}
 .heat th{padding:0 5px;border:0;background:none;font-weight:400;font-size:12px;text-align:center}
