@@ -14,10 +14,10 @@
 namespace carom {
 namespace {
 
-/// "rises with speed (rank correlation 0.83)"
+/// "rises with speed 0.83"
 string trend_of(double correlation, const string& name) {
-  return fmt::format("{} with <b class=\"p\">{}</b> <small>rank correlation {:.2f}</small>",
-                     correlation > 0 ? "rises" : "falls", html_text(name), correlation);
+  return fmt::format("{} with <b class=\"p\">{}</b><small>{:.2f}</small>", correlation > 0 ? "rises" : "falls",
+                     html_text(name), correlation);
 }
 
 class ComparisonPage {
@@ -204,7 +204,7 @@ class ComparisonPage {
       text = fmt::format(
           "<h2>Highest and lowest</h2>\n<div class=\"wide\"><table class=\"answers\"><tr><th>measure</th>"
           "<th>highest</th><th>lowest</th>{}</tr>\n{}</table></div>\n",
-          decided ? "<th>decided by</th>" : "", text);
+          decided ? "<th>decided by <small>rank correlation</small></th>" : "", text);
     return text + same_in_all();
   }
 
@@ -308,10 +308,10 @@ class ComparisonPage {
 
   string table_of_runs() const {
     string text = "<h2>Runs</h2>\n";
-    text += fmt::format("<p><span id=\"shown\">{}</span>{}. {}</p>\n",
-                        c_.runs.rows() < c_.count ? fmt::format("The first {} of {}", c_.runs.rows(), c_.count) : "All",
-                        how_many(c_.count, " run", " runs").substr(to_string(c_.count).size()),
-                        c_.runs.rows() < c_.count ? html_link(summary_name, "summary.csv") + " has all." : "");
+    text += fmt::format("<p><span id=\"shown\">{}</span></p>\n",
+                        c_.runs.rows() < c_.count
+                            ? fmt::format("The first {} of {} runs; summary.csv has all.", c_.runs.rows(), c_.count)
+                            : how_many(c_.count, "run", "runs"));
     text +=
         "<p class=\"tools quiet\" hidden=\"\">A click on a head sorts. Fields below the heads filter. Boxes put up to "
         "six runs side by side, and their films play in step.</p>\n";

@@ -7,16 +7,17 @@ namespace carom {
 
 string_view comparison_style() {
   return R"(.answers td{vertical-align:top;text-align:left}
-.answers b{font-size:17px}
+.answers b{font-size:1.13em}
 .answers b.p{font-size:inherit}
 .answers{min-width:100%}
-.answers small{display:block}
+.answers td small{display:block}
 .rank td:first-child{color:#5b6675}
 .rank td{white-space:nowrap}
 .row{display:flex;flex-wrap:wrap;gap:14px 28px;align-items:flex-start}
-.row>figure{flex:1 1 440px;min-width:0;max-width:740px}
+.row>figure{flex:1 1 440px;min-width:0;max-width:660px}
 .row>div{max-width:100%}
 .pair{display:flex;flex-wrap:wrap;gap:0 28px}
+.pair>div{max-width:100%}
 .heat table{table-layout:fixed;width:100%;border-collapse:separate;border-spacing:1px}
 .heat th{padding:0 5px;border:0;background:none;font-weight:400;font-size:12px;text-align:center}
 .heat th:first-child{width:62px;text-align:right}
@@ -57,10 +58,11 @@ box-shadow:0 -4px 18px #0003;padding:8px clamp(12px,2.5vw,40px)}
 #side input{flex:1;max-width:420px;min-width:80px}
 #side th{background:#fff}
 #side thead td{text-align:left;vertical-align:bottom}
-#side video,#side img{display:block;width:min(420px,78vw);height:auto}
+#side video,#side img{display:block;width:min(340px,78vw);height:auto}
 #side td{text-align:left}
 button.act{font:inherit;padding:3px 12px;border:1px solid #0b5cad;border-radius:6px;background:#fff;color:#0b5cad;cursor:pointer}
-@media print{#table{max-height:none;overflow:visible;border:0}#runs{font-size:7.5pt}#runs thead{position:static}
+@media print{.row>figure{flex-basis:45%;max-width:48%}.heat .fine td a{min-height:11px;line-height:11px}
+#table{max-height:none;overflow:visible;border:0}#runs{font-size:7.5pt}#runs thead{position:static}
 #runs th,#runs td{padding:1px 4px}#runs .m img{width:90px}#side,#runs video,#runs input,.tools{display:none!important}}
 )";
 }

@@ -14,7 +14,7 @@ namespace carom {
 namespace {
 
 /// Small enough for a telephone, where letters are then of a readable size.
-constexpr int figure_width = 520, figure_height = 330;
+constexpr int figure_width = 460, figure_height = 300;
 
 void replace_all(string& text, string_view from, string_view to) {
   for (size_t at = 0; (at = text.find(from, at)) != string::npos; at += to.size()) text.replace(at, from.size(), to);

@@ -6,6 +6,7 @@
 #include "export/gnuplot.h"
 #include "export/page.h"
 #include "export/tables.h"
+#include "files/folders.h"
 #include "files/summary_columns.h"
 #include "scene/film_format.h"
 #include "scene/scene.h"
@@ -54,19 +55,24 @@ string value_text(const SummaryColumn& column, const Summary& summary) {
   return short_number(std::get<double>(value));
 }
 
-string table_of(const Summary& summary) {
-  constexpr const char* head = "<tr><th>name</th><th class=\"n\">value</th><th>unit</th><th>meaning</th></tr>\n";
-  string text;
-  if (!summary.measures.empty()) {
-    text += fmt::format("<h2>Measures of the scene</h2>\n<div class=\"wide\"><table>{}", head);
-    for (const Measured& measure : summary.measures)
-      text += row_of(measure.name, measure.text.empty() ? short_number(measure.value) : measure.text, "");
-    text += "</table></div>\n";
-  }
+constexpr const char* head_of_rows = "<tr><th>name</th><th class=\"n\">value</th><th>unit</th><th>meaning</th></tr>\n";
 
-  text += fmt::format("<h2>Numbers</h2>\n<div class=\"wide\"><table>{}", head);
-  for (const SummaryColumn& column : summary_columns())
-    if (column.name != "title") text += row_of(column.name, value_text(column, summary), column.meaning);
+/// The measures that the scene defines. Empty: there are none.
+string measures_of(const Summary& summary) {
+  if (summary.measures.empty()) return {};
+  string text = "<h2>Measures of the scene</h2>\n<div class=\"wide\"><table>";
+  for (const Measured& measure : summary.measures)
+    text += fmt::format("<tr><td class=\"t\">{}</td><td><b>{}</b></td></tr>\n", html_text(measure.name),
+                        html_text(measure.text.empty() ? short_number(measure.value) : measure.text));
+  return text + "</table></div>\n";
+}
+
+string numbers_of(const Summary& summary) {
+  string text = fmt::format("<h2>Numbers</h2>\n<div class=\"wide\"><table>{}", head_of_rows);
+  for (const SummaryColumn& column : summary_columns()) {
+    const string value = value_text(column, summary);
+    if (column.name != "title" && !value.empty()) text += row_of(column.name, value, column.meaning);
+  }
   return text + "</table></div>\n<p class=\"quiet\">Numbers have five digits here, and all in " +
          html_link("summary.csv", "summary.csv") + ".</p>\n";
 }
@@ -99,11 +105,10 @@ string links_of(span<const FileRecord> files) {
 }
 
 string head_of(const Summary& summary, const RunFacts& facts) {
-  const string& status = summary.status;
-  string text = fmt::format("<p><span class=\"flag {}\">{}</span> run {}, engine {}, {} simulated, ended by {}</p>\n",
-                            status == "done" ? "good" : "doubtful", html_text(status), html_text(summary.run),
-                            html_text(summary.engine), html_text(short_number(summary.duration) + " s"),
-                            html_text(summary.ended_by));
+  string text =
+      fmt::format("<p><span class=\"flag {}\">{}</span>engine {}, {} simulated, ended by {}</p>\n",
+                  summary.status == "done" ? "good" : "doubtful", html_text(summary.status), html_text(summary.engine),
+                  html_text(short_number(summary.duration) + " s"), html_text(summary.ended_by));
   for (const Warning& warning : summary.warnings)
     text += fmt::format("<p class=\"doubtful\">{}</p>\n", html_text(warning.text));
   for (const LeftOut& file : facts.left_out)
@@ -135,7 +140,7 @@ string ReportWriter::first_collisions() const {
       "<th class=\"n\">impulse (N s)</th><th class=\"n\">energy lost (J)</th></tr>\n";
   for (const Collision& one : first_)
     text += fmt::format(
-        "<tr><td>{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{}</td><td>{}</td>"
+        "<tr><td>{}</td><td class=\"k\">{}</td><td class=\"k\">{}</td><td class=\"k\">{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td><td>{}</td></tr>\n",
         short_number(one.time), name_of(one.kind), html_text(scene_.roster.name(one.a)),
         html_text(scene_.roster.name(one.b)), short_number(one.approach_speed), short_number(one.restitution),
@@ -144,9 +149,10 @@ string ReportWriter::first_collisions() const {
 }
 
 string ReportWriter::text(const Summary& summary, const RunFacts& facts, span<const FileRecord> files) const {
-  const string& title = summary.title.empty() ? summary.run : summary.title;
+  const string title = summary.title.empty() ? name_of_folder(folder_.place().path) : summary.title;
   string text = page_head(title) + fmt::format("<h1>{}</h1>\n", html_text(title)) + head_of(summary, facts);
-  text += picture_of(files);
+  text += fmt::format("<div class=\"columns\"><div>{}</div><div>{}{}</div></div>\n", picture_of(files),
+                      measures_of(summary), first_collisions());
 
   // A chart's subtitle says what it shows; its title is that of the scene.
   vector<Plot> plots;
@@ -157,7 +163,7 @@ string ReportWriter::text(const Summary& summary, const RunFacts& facts, span<co
   const PageFigures page = draw_figures(std::move(plots), gnuplot_);
   text += fmt::format("<h2>Charts</h2>\n{}<div class=\"columns\">{}</div>\n", page.marks, joined(page.figures, ""));
 
-  text += table_of(summary) + first_collisions() + links_of(files);
+  text += numbers_of(summary) + links_of(files);
   if (scene_.resolved.size() <= most_text)
     text += fmt::format("<details><summary>The scene, with all its values</summary><pre>{}</pre></details>\n",
                         html_text(scene_.resolved));
