@@ -121,7 +121,7 @@ bool has_walls(const World& world) {
   return !world.walls.empty() || !world.obstacles.empty();
 }
 
-struct Findings {
+struct SceneFindings {
   Foresight foresight;
   vector<string> faded;            // things
   optional<CameraPreview> camera;  // none: the scene has neither pictures nor a camera
@@ -185,7 +185,7 @@ string out_of_view_text(const PlannedScene& planned, const CameraPreview& view) 
 }
 
 // "red and blue enter at 0.3 s; red leaves at 1.2 s"
-string crossings_text(const PlannedScene& planned, const Findings& findings) {
+string crossings_text(const PlannedScene& planned, const SceneFindings& findings) {
   if (!findings.camera->out_of_view) return unknown_view;
   const Foresight& foresight = findings.foresight;
   const vector<ViewChange>& all = foresight.crossings;
@@ -211,7 +211,7 @@ string crossings_text(const PlannedScene& planned, const Findings& findings) {
 }
 
 // "ball is behind lane from 0.3 s to 0.8 s"
-string hidings_text(const PlannedScene& planned, const Findings& findings) {
+string hidings_text(const PlannedScene& planned, const SceneFindings& findings) {
   if (!findings.camera->out_of_view) return unknown_view;
   const Foresight& foresight = findings.foresight;
   const Roster& roster = planned.scene->roster;
@@ -257,7 +257,7 @@ string content_text(const PlannedScene& planned) {
   return "holds another run, or files that no run wrote: run needs --force or another -o";
 }
 
-Findings examine(const PlannedScene& planned) {
+SceneFindings examine(const PlannedScene& planned) {
   const Scene& scene = *planned.scene;
   if (!scene.camera && !scene.output.pictures())
     return {foresee(scene, planned.price.engine, nullptr, trial_budget), {}, nullopt};
@@ -270,13 +270,13 @@ Findings examine(const PlannedScene& planned) {
 }
 
 // Wall time of a run (s): of the part that was simulated, scaled up, and of its outputs.
-optional<double> seconds_to_come(const PlannedScene& planned, const Findings& findings) {
+optional<double> seconds_to_come(const PlannedScene& planned, const SceneFindings& findings) {
   if (!findings.foresight.simulate_s) return nullopt;
   return planned.load_s + *findings.foresight.simulate_s + planned.price.forecast.seconds;
 }
 
 /// Of all files: flights by the part that was simulated, all others by the scene.
-uint64_t bytes_to_come(const PlannedScene& planned, const Findings& findings) {
+uint64_t bytes_to_come(const PlannedScene& planned, const SceneFindings& findings) {
   if (!planned.scene->output.flights) return planned.price.forecast.bytes;
   const PiecesAhead& pieces = findings.foresight.pieces;
   const double flights = flight_bytes(pieces.of_events, pieces.of_crowd);
@@ -287,7 +287,7 @@ string steps_text(double steps) {
   return steps < 1e15 ? counted(uint64_t(steps), "step", "steps") : fmt::format("{:.4g} steps", steps);
 }
 
-string to_come_text(const PlannedScene& planned, const Findings& findings) {
+string to_come_text(const PlannedScene& planned, const SceneFindings& findings) {
   const optional<double> seconds = seconds_to_come(planned, findings);
   const optional<double> steps = steps_of(*planned.scene);
   // How many more a film has that slows down is known with the motion.
@@ -303,7 +303,7 @@ string to_come_text(const PlannedScene& planned, const Findings& findings) {
                                       : "roughly " + wait_text(std::round(*seconds)));
 }
 
-void describe(Block& block, const PlannedScene& planned, const Findings& findings) {
+void describe(Block& block, const PlannedScene& planned, const SceneFindings& findings) {
   block.heading(planned.name, planned.scene->title);
   block.line("bodies", bodies_text(*planned.scene));
   block.line("fixed", fixed_text(planned.scene->world));
@@ -351,7 +351,7 @@ Json collision_json(const Scene& scene, const Collision& c) {
           {"approach_speed_m_per_s", c.approach_speed}};
 }
 
-Json camera_json(const Scene& scene, const Findings& findings) {
+Json camera_json(const Scene& scene, const SceneFindings& findings) {
   const CameraPreview& camera = *findings.camera;
   const Foresight& foresight = findings.foresight;
   Json crossings = Json::array();
@@ -398,7 +398,7 @@ Json camera_json(const Scene& scene, const Findings& findings) {
           {"faded", findings.faded}};
 }
 
-Json as_json(const PlannedScene& planned, const Findings& findings) {
+Json as_json(const PlannedScene& planned, const SceneFindings& findings) {
   const Scene& scene = *planned.scene;
   Json entry = {{"scene", planned.file},
                 {"status", "right"},
@@ -454,7 +454,7 @@ int check_scenes(const Options& options) {
     }
     if (options.quiet) continue;
 
-    const Findings findings = examine(planned);
+    const SceneFindings findings = examine(planned);
     AccuracyReport accuracy;
     if (options.accuracy) accuracy = report_accuracy(*planned.scene, planned.price.engine);
     if (options.json) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
+#include "commands/found_report.h"
 #include "commands/interrupt.h"
 #include "commands/progress.h"
 #include "commands/report.h"
@@ -195,6 +196,8 @@ class CompareSession {
     document_["measures"] = measures;
     const vector<string> files = files_in(folder_);
     document_["files"] = files;
+    const vector<FoundMeasure> found = stored_findings(folder_, plan);
+    document_["found"] = found_json(found);
 
     constexpr size_t most = 12;
     Block block(options_);
@@ -203,6 +206,7 @@ class CompareSession {
     describe_doubtful(block, doubtful_);
     block.line("varied", varied.empty() ? "nothing" : listed(varied, most));
     block.line("measures", listed(measures, most));
+    describe(block, found);
     block.line("wrote", fmt::format("{}: {}", printable(folder_), listed(files, most)));
     return end("done", 0, block.text());
   }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "commands/text.h"
+#include "run/measure.h"
 #include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
@@ -221,6 +222,9 @@ const Option table[] = {
     {"--measures", "", "LIST",
      "what to compare: columns of summary.csv, or values at\nthe run's end such as balls.red.speed_m_per_s",
      [](Options& o, const Words& w) { o.compare.measures = split_lists(w); }},
+    {"--best", "", "EXPRESSION",
+     "the run with the highest value of a measure, or of an\nexpression such as '-energy_lost_J / hits(red)'",
+     [](Options& o, const Words& w) { o.sweep.best = measure_text(single(w, "--best")); }},
     {"--charts", "", "LIST", "x:y or x:y:by; x and by are varied paths, y a measure\n(chosen from the varied paths)",
      read_charts},
     {"--collisions", "", "", "a sheet of the workbook with the first collisions of each\nrun",

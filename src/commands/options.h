@@ -37,6 +37,7 @@ struct SweepWords {
   vector<string> grid;               // path=from:to:count, path=value,value, path=from:to
   optional<uint64_t> random, latin;  // numbers of samples
   optional<uint64_t> repeat;         // seeds of each run
+  string best;                       // a measure, or an expression of measures; empty: none
   bool skip_invalid = false;
   bool plan = false;  // show, do not do
 };

@@ -196,6 +196,7 @@ const Command sweep_command = {
      {"--repeat", repeat_help},
      {"--skip-invalid"},
      {"--measures", measures_help},
+     {"--best"},
      {"--plan"},
      {"--jobs", "N runs at a time (the number of processors); changes no\nresult"},
      {"--threads"},

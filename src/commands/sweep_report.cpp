@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/error_list.h"
+#include "commands/found_report.h"
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
@@ -63,6 +64,14 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     complain(options,
              fmt::format("and {} failed", counted(outcome.failures.size() - failures_shown, "more run", "more runs")));
 
+  // Of a part there is no comparison.
+  const ComparisonPlan plan = comparison_plan(job.sweep(), job.base_text());
+  const bool is_part = outcome.status.starts_with("part");
+  const string& best = options.sweep.best;
+  const bool described = outcome.status != "up to date" || !best.empty() || options.json;
+  const vector<FoundMeasure> found =
+      is_part || !described ? vector<FoundMeasure>() : stored_findings(job.folder(), plan, best);
+
   const int code = outcome.failures.empty() ? 0 : 3;
   if (options.json) {
     Json json = begin_json(options, outcome.status);
@@ -76,6 +85,7 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     json["skipped"] = skipped_json(outcome.skipped);
     json["doubtful"] = outcome.doubtful;
     json["wall_s"] = outcome.wall_s;
+    json["found"] = found_json(found);
     return print_end(options, code, json);
   }
 
@@ -93,10 +103,12 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
 
     describe_doubtful(block, outcome.doubtful);
     describe_skipped(block, outcome.skipped);
+    describe(block, found);
     block.line("folder", printable(job.folder()));
-    if (outcome.status.starts_with("part"))
+    if (is_part)
       block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
   }
+  if (!best.empty() && !is_part) describe_best(block, found, best);
   return print_end(options, code, {}, block.text());
 }
 

@@ -109,10 +109,12 @@ Sweep read_sweep(const Options& options) {
     for (const string& name : *options.only) sweep.only.push_back({name, "--only"});
   }
 
-  for (const string& name : options.compare.measures) {
+  const auto add = [&](const string& name, const char* option) {
     const auto is_named = [&](const SweepMeasure& measure) { return measure.name == name; };
-    if (none_of(sweep.measures, is_named)) sweep.measures.push_back({name, "--measures"});
-  }
+    if (none_of(sweep.measures, is_named)) sweep.measures.push_back({name, option});
+  };
+  for (const string& name : options.compare.measures) add(name, "--measures");
+  if (!options.sweep.best.empty()) add(options.sweep.best, "--best");
   return sweep;
 }
 

@@ -118,7 +118,7 @@ void CompareSheet::write_differences(const FrontPage& page) {
     for (size_t k = 0; k < difference.values.size(); ++k) {
       const string& value = difference.values[k];
       sheet_.wide(row_, columns_of_path + k * width, width, value.empty() ? Cell{"-"} : cell_of(value),
-                  CellStyle::fitted);
+                  CellStyle::fitted_name);
     }
   }
 

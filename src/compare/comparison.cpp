@@ -88,8 +88,6 @@ class Comparison {
   }
 
   size_t doubtful() const { return doubtful_; }  // so far
-  /// What was found; after finish().
-  const vector<pair<string, string>>& found() const { return found_; }
 
   vector<unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
@@ -106,7 +104,6 @@ class Comparison {
 
     // The sheets that take all runs together.
     const Findings findings = findings_of(outcomes_, measures_.size(), unrelated_);
-    found_ = lines_of(findings, plan_, measures_, outcomes_);
     const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
     const vector<SceneValue> common = common_.values();
@@ -209,7 +206,6 @@ class Comparison {
   RunTable runs_;
   SeriesGatherer series_;
   CommonValues common_;
-  vector<pair<string, string>> found_;
 };
 
 /// Reads the values of all runs, and no other file of them.
@@ -218,21 +214,17 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
   Variation variation;
   Outcomes outcomes(plan, 0, count);
   vector<size_t> points(count);
-  vector<bool> is_absent(plan.parameters.size());
+  AbsentValues absent(plan.parameters.size());
 
-  // A value that is absent from some scenes tells them apart, unless a run failed.
   for (size_t i = 0; i < count; ++i) {
     watch.stop_check();
     const ComparedRun one = run(i);
     points[i] = outcomes.add(i, one, false, {});
-    // A failed run may have no scene at all.
-    if (all_of(one.values, [](const auto& value) { return value.empty(); })) continue;
-    for (size_t p = 0; p < one.values.size(); ++p) is_absent[p] = is_absent[p] || one.values[p].empty();
+    absent.add(one.values);
   }
 
   outcomes.finish();
-  const auto absent = size_t(ranges::count(is_absent, true));
-  variation.unrelated = 2 * absent > plan.parameters.size();
+  variation.unrelated = absent.unrelated();
   variation.two = plan.parameters.size() > 1 && !variation.unrelated && heat_map_parameters(plan, outcomes).has_value();
   variation.scenarios = chosen_scenarios(plan, outcomes, points, variation.unrelated);
   return variation;
@@ -251,9 +243,7 @@ vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const Co
     watch.done(i + 1);
   }
   watch.doubtful(comparison.doubtful());
-  auto files = comparison.finish();
-  watch.found(comparison.found());
-  return files;
+  return comparison.finish();
 }
 
 }  // namespace carom

@@ -16,8 +16,6 @@ struct ComparisonWatch {
   function<void(size_t)> done = [](size_t) {};
   /// The number of doubtful runs, at the end.
   function<void(size_t)> doubtful = [](size_t) {};
-  /// What was found, at the end: measures, and lines_of() their findings.
-  function<void(const vector<pair<string, string>>&)> found = [](const auto&) {};
 };
 
 /// Writes summary.csv, comparison.xlsx, index.html and, for repeats, repeats.csv into `place`, complete but with

@@ -42,9 +42,14 @@ vector<Measure> measures_of(const ComparisonPlan& plan) {
     if (!find_parameter(plan, chart.x)) add(chart.x);
   }
 
-  for (const string& name : plan.own) add(name);
-  if (measures.empty())
+  // Scenes that define other measures than the first one have the usual ones in common.
+  const bool shared = none_of(plan.parameters, [](const Parameter& p) { return p.path.starts_with("measures."); });
+  const auto add_usual = [&] {
     for (const char* name : usual_measures) add(name);
+  };
+  if (measures.empty() && !shared) add_usual();
+  for (const string& name : plan.own) add(name);
+  if (measures.empty()) add_usual();
   return measures;
 }
 

@@ -65,24 +65,6 @@ void correlate(MeasureFinding& finding, const vector<double>& values, const vect
   }
 }
 
-/// "15 in r0001 (restitution = 0.5)", "0 in r0003 and 2 more".
-string text_of(double value, size_t point, size_t equal, const Findings& findings, const ComparisonPlan& plan,
-               const Outcomes& outcomes) {
-  string text = fmt::format("{} in {}", shown_value(Cell{{}, value}), outcomes.id(point));
-  if (findings.variety == Variety::runs) return text;
-  if (equal > 1) return text + fmt::format(" and {} more", equal - 1);
-
-  constexpr size_t most = 3;
-  vector<string> paths;
-  for (const size_t p : findings.parameters) paths.push_back(plan.parameters[p].path);
-  const vector<string> names = short_names(paths);
-  string values;
-  for (size_t k = 0; k < min(names.size(), most); ++k)
-    values += fmt::format("{}{} = {}", k == 0 ? "" : ", ", names[k],
-                          shown_value(outcomes.value(point, findings.parameters[k])));
-  return text + (values.empty() ? "" : fmt::format(" ({})", values));
-}
-
 }  // namespace
 
 Variety variety_of(const Outcomes& outcomes) {
@@ -158,28 +140,6 @@ vector<const MeasureFinding*> shown_findings(const Findings& findings, size_t mo
   ranges::sort(shown, {}, &MeasureFinding::measure);
   shown.resize(min(shown.size(), most));
   return shown;
-}
-
-vector<pair<string, string>> lines_of(const Findings& findings, const ComparisonPlan& plan,
-                                      const vector<Measure>& measures, const Outcomes& outcomes) {
-  constexpr size_t most_lines = 5;
-  vector<pair<string, string>> lines;
-  for (const MeasureFinding* shown : shown_findings(findings, most_lines)) {
-    const MeasureFinding& finding = *shown;
-    const size_t high = finding.highest.front();
-    const size_t low = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
-    const auto value = [&](size_t point) { return outcomes.spread(point, finding.measure).mean(); };
-    string text = fmt::format("most {}, least {}",
-                              text_of(value(high), high, finding.at_highest, findings, plan, outcomes),
-                              text_of(value(low), low, finding.at_lowest, findings, plan, outcomes));
-
-    if (finding.strongest)
-      text += fmt::format("; strongest: {}, rank correlation {:.2f}",
-                          plan.parameters[findings.parameters[*finding.strongest]].path,
-                          finding.correlations[*finding.strongest]);
-    lines.emplace_back(measures[finding.measure].name, std::move(text));
-  }
-  return lines;
 }
 
 }  // namespace carom

@@ -60,9 +60,4 @@ Variety variety_of(const Outcomes& outcomes);
 /// "let.angle from 10 to 82 (25 values), let.speed from 2 m/s to 14 m/s (25 values), 3 repeats".
 string varied_ranges(const ComparisonPlan& plan, const Outcomes& outcomes);
 
-/// Five lines or fewer, one for each measure that differs: its highest and lowest value, their runs, and the parameter
-/// with the strongest rank correlation.
-vector<pair<string, string>> lines_of(const Findings& findings, const ComparisonPlan& plan,
-                                      const vector<Measure>& measures, const Outcomes& outcomes);
-
 }  // namespace carom

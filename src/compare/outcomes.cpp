@@ -196,6 +196,15 @@ bool Outcomes::is_grid(size_t a, size_t b) const {
   return varied_[a].values.size() * varied_[b].values.size() <= 2 * points();
 }
 
+void AbsentValues::add(const vector<string>& values) {
+  if (all_of(values, [](const string& value) { return value.empty(); })) return;
+  for (size_t p = 0; p < values.size(); ++p) is_absent_[p] = is_absent_[p] || values[p].empty();
+}
+
+bool AbsentValues::unrelated() const {
+  return 2 * size_t(ranges::count(is_absent_, true)) > is_absent_.size();
+}
+
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
   CsvRow row(file);

@@ -86,6 +86,18 @@ class Outcomes {
   vector<Spread> spreads_;  // of repeats
 };
 
+/// Whether scenes have little in common: most parameters exist in some of them only.
+class AbsentValues {
+ public:
+  explicit AbsentValues(size_t parameters) : is_absent_(parameters) {}
+  /// The values of a run. Those of a failed run may all be absent, and say nothing.
+  void add(const vector<string>& values);
+  bool unrelated() const;
+
+ private:
+  vector<bool> is_absent_;
+};
+
 /// repeats.csv: a row for each scenario, with its parameters, n, and the mean, sd, min and max of each measure.
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes);

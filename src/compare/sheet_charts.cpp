@@ -136,6 +136,7 @@ void insert(Worksheet& sheet, lxw_chart* chart, const ChartPlace& place) {
   lxw_chart_options options{};
   options.x_scale = place.width / 480.0;
   options.y_scale = place.height / 288.0;
+  options.y_offset = 3;
   options.object_position = LXW_OBJECT_MOVE_DONT_SIZE;
   worksheet_insert_chart_opt(sheet.get(), to_row(place.row), to_column(place.column), chart, &options);
 }

@@ -88,6 +88,8 @@ struct Measure {
 Measure parse_measure(string_view name, span<const string> own = {});
 /// The same, and all that it names must exist in the scene.
 Measure parse_measure(string_view name, const Scene& scene);
+/// The name of the measure that a text means: the text itself, or, of an expression without it, with "= " in front.
+string measure_text(const string& text);
 /// The measures that the scene defines, each with its name. Throws MeasureError.
 vector<Measure> own_measures(const Scene& scene);
 /// The fault of one of them; an empty text: none. For LoadOptions.

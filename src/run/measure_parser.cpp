@@ -437,4 +437,15 @@ Measure parse_measure(string_view text, span<const string> own) {
   return measure;
 }
 
+string measure_text(const string& text) {
+  const bool is_name = all_of(text, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+  if (is_name) return text;
+  try {
+    parse_measure(text);
+    return text;
+  } catch (const MeasureError&) {
+    return "= " + text;
+  }
+}
+
 }  // namespace carom
