@@ -38,7 +38,7 @@ class ComparisonPage {
   }
 
   string text() {
-    string text = page_head(c_.plan.title, string(comparison_style()) + heat_style());
+    string text = page_head(c_.plan.title, string(comparison_style) + heat_style());
     text += fmt::format("<h1>{}</h1>\n{}{}", html_text(c_.plan.title), facts(), marks_);
 
     // The first screen: the question and the answers beside the first chart, or of unrelated runs beside all bars.
@@ -58,7 +58,7 @@ class ComparisonPage {
     }
     if (!charts_.back().empty())
       text += fmt::format("<h2>Further charts</h2>\n<div class=\"row\">{}</div>\n", joined(charts_.back(), ""));
-    return text + table_of_runs() + shared() + string(comparison_script()) + page_end();
+    return text + table_of_runs() + shared() + string(comparison_script) + page_end();
   }
 
  private:
@@ -82,6 +82,7 @@ class ComparisonPage {
       if (data.x.empty()) continue;
       const auto of_chart = [&](const MeasureFinding* one) { return c_.measures[one->measure].name == chart.y; };
       const auto place = size_t(ranges::find_if(shown_, of_chart) - shown_.begin());
+
       if (!data.numeric) {
         charts_[place].push_back(bar_table(data));
       } else if (plots.size() < most_figures) {
@@ -109,12 +110,12 @@ class ComparisonPage {
   }
 
   string facts() const {
-    string text = fmt::format("<p><span class=\"flag\">{}{}</span>", how_many(c_.count, "run", "runs"),
+    string text = fmt::format("<p><span class=\"flag\">{}{}</span>", how_many(c_.count.all, "run", "runs"),
                               c_.plan.seed ? fmt::format(" of {} scenarios", c_.outcomes.points()) : "");
-    text += c_.failed == 0 ? "<span class=\"flag good\">none failed</span>"
-                           : fmt::format("<span class=\"flag failed\">{} failed</span>", c_.failed);
-    text += c_.doubtful == 0 ? "<span class=\"flag good\">none doubtful</span>"
-                             : fmt::format("<span class=\"flag doubtful\">{} doubtful</span>", c_.doubtful);
+    text += c_.count.failed == 0 ? "<span class=\"flag good\">none failed</span>"
+                                 : fmt::format("<span class=\"flag failed\">{} failed</span>", c_.count.failed);
+    text += c_.count.doubtful == 0 ? "<span class=\"flag good\">none doubtful</span>"
+                                   : fmt::format("<span class=\"flag doubtful\">{} doubtful</span>", c_.count.doubtful);
     text += "</p>\n<p class=\"links\">" + html_link(summary_name, "summary.csv: all numbers") +
             html_link(workbook_name, "comparison.xlsx: the workbook");
     if (c_.plan.seed) text += html_link(repeats_name, "repeats.csv: means of repeats");
@@ -127,6 +128,7 @@ class ComparisonPage {
     string text =
         "<h2>What was varied</h2>\n<div class=\"wide\"><table><tr><th>parameter</th><th class=\"n\">values</th>"
         "<th class=\"n\">from</th><th class=\"n\">to</th></tr>\n";
+
     for (const Varied& varied : c_.outcomes.varied()) {
       const Parameter& parameter = c_.plan.parameters[varied.parameter];
       text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(parameter.path));
@@ -135,6 +137,7 @@ class ComparisonPage {
                             c_.outcomes.most_runs());
         continue;
       }
+
       text += fmt::format("<td>{}</td>", varied.values.size());
       for (const Cell* value : {&varied.values.front(), &varied.values.back()})
         text += fmt::format("<td>{}{}{}</td>", html_text(shown_value(*value)), parameter.unit.empty() ? "" : " ",
@@ -193,6 +196,7 @@ class ComparisonPage {
       text += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td>", html_text(label(finding->measure)),
                           extreme(*finding, finding->highest.front(), finding->at_highest),
                           extreme(*finding, lowest, finding->at_lowest));
+
       const auto strongest = finding->strongest;
       if (decided)
         text += fmt::format(
@@ -200,6 +204,7 @@ class ComparisonPage {
             strongest ? trend_of(finding->correlations[*strongest], names_[c_.findings.parameters[*strongest]]) : "–");
       text += "</tr>\n";
     }
+
     if (!text.empty())
       text = fmt::format(
           "<h2>Highest and lowest</h2>\n<div class=\"wide\"><table class=\"answers\"><tr><th>measure</th>"
@@ -211,7 +216,7 @@ class ComparisonPage {
   string same_in_all() const {
     string text;
     for (const MeasureFinding& finding : c_.findings.measures)
-      if (finding.is_constant && finding.points == c_.outcomes.points() && c_.count > 1)
+      if (finding.is_constant && finding.points == c_.outcomes.points() && c_.count.all > 1)
         text += fmt::format("{}{} = {}", text.empty() ? "" : "; ", label(finding.measure),
                             short_number(mean(finding.highest.front(), finding.measure)));
     return text.empty() ? text : fmt::format("<p>The same in all runs: {}.</p>\n", html_text(text));
@@ -219,15 +224,15 @@ class ComparisonPage {
 
   string trust() const {
     string text = "<h3>How sure it is</h3>\n<ul>";
-    if (c_.failed + c_.doubtful == 0) text += "<li>All runs are complete, and none is doubtful.</li>";
-    if (c_.failed > 0)
-      text += fmt::format("<li class=\"failed\">{} failed and {} no values.</li>", how_many(c_.failed, "run", "runs"),
-                          c_.failed == 1 ? "has" : "have");
-    if (c_.doubtful > 0)
+    if (c_.count.failed + c_.count.doubtful == 0) text += "<li>All runs are complete, and none is doubtful.</li>";
+    if (c_.count.failed > 0)
+      text += fmt::format("<li class=\"failed\">{} failed and {} no values.</li>",
+                          how_many(c_.count.failed, "run", "runs"), c_.count.failed == 1 ? "has" : "have");
+    if (c_.count.doubtful > 0)
       text += fmt::format(
           "<li class=\"doubtful\">{} doubtful: figures may be wrong. The manifest.json of each has the "
           "reason.</li>",
-          how_many(c_.doubtful, "run is", "runs are"));
+          how_many(c_.count.doubtful, "run is", "runs are"));
     for (const MeasureFinding* finding : shown_) text += repeats_of(*finding);
     return text + "</ul>\n";
   }
@@ -309,9 +314,9 @@ class ComparisonPage {
   string table_of_runs() const {
     string text = "<h2>Runs</h2>\n";
     text += fmt::format("<p><span id=\"shown\">{}</span></p>\n",
-                        c_.runs.rows() < c_.count
-                            ? fmt::format("The first {} of {} runs; summary.csv has all.", c_.runs.rows(), c_.count)
-                            : how_many(c_.count, "run", "runs"));
+                        c_.runs.rows() < c_.count.all
+                            ? fmt::format("The first {} of {} runs; summary.csv has all.", c_.runs.rows(), c_.count.all)
+                            : how_many(c_.count.all, "run", "runs"));
     text +=
         "<p class=\"tools quiet\" hidden=\"\">A click on a head sorts. Fields below the heads filter. Boxes put up to "
         "six runs side by side, and their films play in step.</p>\n";

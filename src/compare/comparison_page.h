@@ -10,6 +10,10 @@
 
 namespace carom {
 
+struct RunCounts {
+  size_t all = 0, failed = 0, doubtful = 0;
+};
+
 /// What a page shows. All must outlive comparison_page().
 struct PageContent {
   const ComparisonPlan& plan;
@@ -19,8 +23,8 @@ struct PageContent {
   const RunTable& runs;
   /// Of unrelated runs. Empty: they are related.
   const DifferenceList& differences;
-  const vector<SceneValue>& common;            // values that all scenes share
-  size_t count = 0, failed = 0, doubtful = 0;  // runs
+  const vector<SceneValue>& common;  // values that all scenes share
+  RunCounts count;
 };
 
 /// The page. Without gnuplot its charts are a sentence that names the remedy. Throws ExportError.

@@ -5,8 +5,7 @@
 
 namespace carom {
 
-string_view comparison_style() {
-  return R"(.answers td{vertical-align:top;text-align:left}
+const string_view comparison_style = R"(.answers td{vertical-align:top;text-align:left}
 .answers b{font-size:1.13em}
 .answers b.p{font-size:inherit}
 .answers{min-width:100%}
@@ -65,10 +64,8 @@ button.act{font:inherit;padding:3px 12px;border:1px solid #0b5cad;border-radius:
 #table{max-height:none;overflow:visible;border:0}#runs{font-size:7.5pt}#runs thead{position:static}
 #runs th,#runs td{padding:1px 4px}#runs .m img{width:90px}#side,#runs video,#runs input,.tools{display:none!important}}
 )";
-}
 
-string_view comparison_script() {
-  return R"(<script>//<![CDATA[
+const string_view comparison_script = R"(<script>//<![CDATA[
 (() => {
 'use strict';
 const table = document.getElementById('runs');
@@ -232,6 +229,5 @@ arrive();
 })();
 //]]></script>
 )";
-}
 
 }  // namespace carom

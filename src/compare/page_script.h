@@ -5,7 +5,7 @@
 
 namespace carom {
 
-string_view comparison_style();
-string_view comparison_script();
+extern const string_view comparison_style;
+extern const string_view comparison_script;
 
 }  // namespace carom

@@ -39,6 +39,7 @@ string text_of(int file, size_t most) {
   struct stat info {};
   if (fstat(file, &info) != 0) fail("read", {-1, "the output of a program"}, "");
   string text(min(most, size_t(info.st_size)), '\0');
+
   size_t size = 0;
   while (size < text.size()) {
     const ssize_t n = pread(file, text.data() + size, text.size() - size, off_t(size));

@@ -85,6 +85,8 @@ string html_text(string_view text) {
   constexpr pair<char, string_view> escapes[] = {
       {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
   string out;
+
+  // Line by line, since line feeds stay.
   while (true) {
     const size_t line = text.find('\n');
     for (const char c : printable(text.substr(0, line))) {
@@ -122,7 +124,7 @@ string page_head(string_view title, string_view style) {
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>\n"
       "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
       "<title>{}</title>\n<style>{}{}</style></head>\n<body>\n",
-      html_text(title), page_style(), style);
+      html_text(title), page_style, style);
 }
 
 string page_end() {

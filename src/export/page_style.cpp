@@ -5,8 +5,7 @@
 
 namespace carom {
 
-string_view page_style() {
-  return R"(
+const string_view page_style = R"(
 *{box-sizing:border-box}
 body{margin:0 auto;max-width:1640px;padding:16px clamp(12px,2.5vw,40px) 60px;color:#1c2430;background:#fff;
 font:15px/1.45 system-ui,-apple-system,"Segoe UI",Roboto,"Noto Sans","DejaVu Sans",sans-serif}
@@ -51,6 +50,5 @@ figcaption small{font-weight:400;display:block}
 body{max-width:none;padding:0;font-size:9pt}a{color:inherit}.wide{overflow:visible}.links{display:none}
 .columns{grid-template-columns:1fr 1fr}h2{margin-top:8px}h2,h3{break-after:avoid}tr,figure,.key{break-inside:avoid}}
 )";
-}
 
 }  // namespace carom

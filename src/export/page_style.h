@@ -5,6 +5,6 @@
 
 namespace carom {
 
-string_view page_style();
+extern const string_view page_style;
 
 }  // namespace carom

@@ -25,12 +25,14 @@ string picture_of(span<const FileRecord> files) {
   const auto image = [](string_view name, string_view what) {
     return fmt::format("<img class=\"film\" src=\"{}\" alt=\"{}\"/>\n", html_address(name), what);
   };
+
   for (const FileRecord& file : files)
     if (const auto format = film_format(file.name); format == FilmFormat::mp4)
       return fmt::format("<video class=\"film\" controls=\"\" preload=\"metadata\" src=\"{}\"></video>\n",
                          html_address(file.name));
     else if (format)
       return image(file.name, "film");
+
   for (const FileRecord& file : files)
     if (file.name == "sheet.png") return image(file.name, "pictures of the run");
   for (const FileRecord& file : files)
@@ -138,6 +140,7 @@ string ReportWriter::first_collisions() const {
       "<h2>First collisions</h2>\n<div class=\"wide\"><table><tr><th class=\"n\">time (s)</th><th>kind</th>"
       "<th>a</th><th>b</th><th class=\"n\">approach (m/s)</th><th class=\"n\">restitution</th>"
       "<th class=\"n\">impulse (N s)</th><th class=\"n\">energy lost (J)</th></tr>\n";
+
   for (const Collision& one : first_)
     text += fmt::format(
         "<tr><td>{}</td><td class=\"k\">{}</td><td class=\"k\">{}</td><td class=\"k\">{}</td><td>{}</td><td>{}</td>"
