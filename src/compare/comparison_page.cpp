@@ -210,6 +210,8 @@ class ComparisonPage {
           "<h2>Highest and lowest</h2>\n<div class=\"wide\"><table class=\"answers\"><tr><th>measure</th>"
           "<th>highest</th><th>lowest</th>{}</tr>\n{}</table></div>\n",
           decided ? "<th>decided by <small>rank correlation</small></th>" : "", text);
+    else if (c_.count.all > 1)
+      text = "<p>No measure differs between the runs.</p>\n";
     return text + same_in_all();
   }
 
@@ -251,7 +253,7 @@ class ComparisonPage {
 
   string correlations() const {
     const vector<size_t>& parameters = c_.findings.parameters;
-    if (parameters.size() < 2) return {};
+    if (parameters.size() < 2 || shown_.empty()) return {};
     string text = "<h3>Rank correlations</h3>\n<div class=\"wide\"><table><tr><th>measure</th>";
     for (const size_t p : parameters) text += fmt::format("<th class=\"n\">{}</th>", html_text(label_of_parameter(p)));
     text += "</tr>\n";

@@ -89,8 +89,9 @@ class Browser:
 
     def open(self, file, width=1600, height=1000):
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
-        self.call("Page.navigate", url=pathlib.Path(file).resolve().as_uri())
-        self.wait_for(f"document.readyState === 'complete' && location.protocol === 'file:'")
+        address = pathlib.Path(file).resolve().as_uri()
+        self.call("Page.navigate", url=address)
+        self.wait_for(f"document.readyState === 'complete' && location.href === {json.dumps(address)}")
 
     def picture(self, file, whole=False):
         shot = self.call("Page.captureScreenshot", captureBeyondViewport=whole)
