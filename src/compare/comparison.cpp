@@ -10,14 +10,14 @@
 #include "compare/compare_sheet.h"
 #include "compare/compared_run.h"
 #include "compare/data_dictionary.h"
-#include "compare/outcomes.h"
-#include "compare/parameter_sheet.h"
 #include "compare/findings.h"
 #include "compare/heat_map.h"
+#include "compare/outcomes.h"
+#include "compare/parameter_sheet.h"
 #include "compare/pivot_sheet.h"
-#include "compare/sheet_charts.h"
 #include "compare/scenarios.h"
 #include "compare/series.h"
+#include "compare/sheet_charts.h"
 #include "compare/summary_sheet.h"
 #include "compare/workbook.h"
 #include "files/manifest.h"
@@ -137,7 +137,8 @@ class Comparison {
     string state = failed_ + doubtful_ == 0 ? "No run failed or is doubtful" : "";
     if (failed_ > 0) state += how_many(failed_, "run failed", "runs failed");
     if (doubtful_ > 0)
-      state += fmt::format("{}{}", state.empty() ? "" : ", ", how_many(doubtful_, "run is doubtful", "runs are doubtful"));
+      state +=
+          fmt::format("{}{}", state.empty() ? "" : ", ", how_many(doubtful_, "run is doubtful", "runs are doubtful"));
 
     string same;
     for (const MeasureFinding& finding : findings.measures)
