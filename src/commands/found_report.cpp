@@ -45,8 +45,8 @@ Json run_json(const FoundRun& run) {
 void describe(Block& block, const vector<FoundMeasure>& found) {
   for (size_t k = 0; k < min(found.size(), most_lines); ++k) {
     const FoundMeasure& one = found[k];
-    string text = fmt::format("{} from {} to {}", printable(one.name), short_text_of(one.lowest),
-                              short_text_of(one.highest));
+    string text =
+        fmt::format("{} from {} to {}", printable(one.name), short_text_of(one.lowest), short_text_of(one.highest));
     if (!one.strongest.empty())
       text += fmt::format(", mostly by {} ({:+.2f})", printable(one.strongest_name), one.correlation);
     block.line(k == 0 ? "found" : "", text);

@@ -105,8 +105,7 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     describe_skipped(block, outcome.skipped);
     describe(block, found);
     block.line("folder", printable(job.folder()));
-    if (is_part)
-      block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
+    if (is_part) block.line("then", fmt::format("carom gather {}, once all parts are done", printable(job.folder())));
   }
   if (!best.empty() && !is_part) describe_best(block, found, best);
   return print_end(options, code, {}, block.text());

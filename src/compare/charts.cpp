@@ -61,7 +61,9 @@ vector<Chart> scatters(const ComparisonPlan& plan, const vector<Measure>& measur
   vector<Chart> charts;
   for (size_t k = 0; k < shown.size(); ++k) {
     const vector<double>& correlations = shown[k]->correlations;
-    const auto strength = [&](size_t place) { return isfinite(correlations[place]) ? std::abs(correlations[place]) : 0.0; };
+    const auto strength = [&](size_t place) {
+      return isfinite(correlations[place]) ? std::abs(correlations[place]) : 0.0;
+    };
     vector<size_t> places;
     for (size_t place = 0; place < findings.parameters.size(); ++place)
       if (outcomes.varied()[findings.parameters[place]].numeric) places.push_back(place);

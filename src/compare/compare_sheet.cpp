@@ -1,5 +1,5 @@
-// A grid of narrow columns, as wide as a printed page: heat maps have a column for each value, and everything else takes
-// several. Below the answers a block for each measure has its figure on the left and its ranking on the right.
+// A grid of narrow columns, as wide as a printed page: heat maps have a column for each value, and everything else
+// takes several. Below the answers a block for each measure has its figure on the left and its ranking on the right.
 #include "compare/compare_sheet.h"
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t columns = 48, figure_columns = 27, ranking_columns = columns - figure_columns - 1;
 constexpr double column_pixels = 27, row_pixels = 19;
-constexpr double row_height = 14.25;  // points
+constexpr double row_height = 14.25;                      // points
 constexpr double column_width = (column_pixels - 5) / 7;  // characters
 /// Rows of a printed page.
 constexpr size_t page_rows = 43;
@@ -172,22 +172,22 @@ void CompareSheet::write_answers(const FrontPage& page) {
     };
 
     cell(measure_columns, Cell{label_of(page.measures[finding.measure].name)}, CellStyle::total, nullptr);
-    const size_t high = finding.highest.front();
-    const size_t low = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
-    for (const auto& [point, equal] : {pair(high, finding.at_highest), pair(low, finding.at_lowest)}) {
+    for (const auto& [point, equal] :
+         {pair(finding.top, finding.at_highest), pair(finding.bottom, finding.at_lowest)}) {
       cell(number_columns, Cell{{}, value_of(page, finding, point)}, CellStyle::fitted, &look);
       cell(id, Cell{string(page.outcomes.id(point)) + (equal > 1 ? fmt::format(" +{}", equal - 1) : "")},
            CellStyle::fitted_name, nullptr);
       for (size_t k = 0; k < values; ++k)
-        cell(value_columns, page.outcomes.value(point, page.findings.parameters[k]), CellStyle::fitted_varied, &looks[k]);
+        cell(value_columns, page.outcomes.value(point, page.findings.parameters[k]), CellStyle::fitted_varied,
+             &looks[k]);
     }
 
     if (repeats) cell(number_columns, Cell{{}, finding.spread_of_repeats}, CellStyle::fitted, &look);
     NumberLook hundredths;
     hundredths.add(0.12);
     for (size_t k = 0; k < correlated; ++k)
-      cell(number_columns, Cell{{}, finding.correlations[k]}, k == finding.strongest ? CellStyle::total : CellStyle::fitted,
-           &hundredths);
+      cell(number_columns, Cell{{}, finding.correlations[k]},
+           k == finding.strongest ? CellStyle::total : CellStyle::fitted, &hundredths);
     ++row_;
   }
 
@@ -275,8 +275,7 @@ void CompareSheet::write_block(const FrontPage& page, const MeasureFinding& find
     place.columns_of_cell = clamp<size_t>(most_heat_values / max<size_t>(map.columns.size(), 1), 1, 4);
     write_heat_map(sheet_, page.plan, page.outcomes, map, finding.measure, place, page.summary);
     extra_ += turned_rows;
-    if (layout_of(page).beside && rows > unit_rows)
-      take_chart(row_ + unit_rows, figure_columns + 1, ranking_columns);
+    if (layout_of(page).beside && rows > unit_rows) take_chart(row_ + unit_rows, figure_columns + 1, ranking_columns);
   }
 
   write_ranking(page, finding, figure_columns + 1);

@@ -40,7 +40,7 @@ class CompareSheet {
   void begin_page(size_t rows);
 
   Worksheet& sheet_;
-  size_t row_ = 0;  // the next free one
+  size_t row_ = 0;               // the next free one
   size_t page_ = 0, extra_ = 0;  // the first row of the present page; heights beyond one row on it
   vector<size_t> breaks_;
 };

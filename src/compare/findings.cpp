@@ -33,13 +33,15 @@ void rank(MeasureFinding& finding, const vector<double>& values) {
   finding.at_highest = size_t(ranges::count(values, high));
   finding.at_lowest = size_t(ranges::count(values, low));
 
+  finding.top = order.front();
+  finding.bottom = size_t(ranges::find(values, low) - values.begin());
+
   // The lowest first, those of equal values in the order of the runs.
   const size_t tops = min(order.size(), MeasureFinding::most_ranked);
   finding.highest.assign(order.begin(), order.begin() + ptrdiff_t(tops));
   order.erase(order.begin(), order.begin() + ptrdiff_t(tops));
-  ranges::stable_sort(order, [&](size_t a, size_t b) {
-    return values[a] != values[b] ? values[a] < values[b] : a < b;
-  });
+  ranges::stable_sort(order,
+                      [&](size_t a, size_t b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
   order.resize(min(order.size(), MeasureFinding::most_ranked));
   finding.lowest = std::move(order);
 }

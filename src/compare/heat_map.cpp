@@ -37,8 +37,11 @@ optional<pair<size_t, size_t>> heat_map_parameters(const ComparisonPlan& plan, c
 
 HeatMap heat_map(const Outcomes& outcomes, pair<size_t, size_t> parameters, size_t measure, size_t most_values) {
   const Varied &down = outcomes.varied()[parameters.first], &across = outcomes.varied()[parameters.second];
-  HeatMap map{parameters.first, parameters.second, evenly_spaced(down.values.size(), most_values),
-              evenly_spaced(across.values.size(), most_values), {}};
+  HeatMap map{parameters.first,
+              parameters.second,
+              evenly_spaced(down.values.size(), most_values),
+              evenly_spaced(across.values.size(), most_values),
+              {}};
   const size_t height = map.rows.size(), width = map.columns.size();
   const vector<size_t> row_of = places_in(map.rows, down.values.size());
   const vector<size_t> column_of = places_in(map.columns, across.values.size());

@@ -89,7 +89,8 @@ void ParameterSheet::finish(const Outcomes& outcomes, const vector<SceneValue>& 
     sheet_.cell(row++, 2, cell_of(value.text));
   }
   sheet_.fit_all(9, 40, 1);
-  sheet_.print_table(0, 3 + differences_.runs.size());
+  sheet_.print_wide();
+  sheet_.print_columns(max<size_t>(5, 2 + differences_.runs.size()));
 }
 
 }  // namespace carom

@@ -72,7 +72,8 @@ size_t write_heat_map(Worksheet& sheet, const ComparisonPlan& plan, const Outcom
   for (const double mean : map.means) look.add(mean);
 
   const vector<string> names = short_names({plan.parameters[map.down].path, plan.parameters[map.across].path});
-  sheet.wide(place.head_row, place.first_column, place.columns_of_head, Cell{fmt::format("{} \\ {}", names[0], names[1])},
+  sheet.wide(place.head_row, place.first_column, place.columns_of_head,
+             Cell{fmt::format("{} \\ {}", names[0], names[1])},
              place.is_small ? CellStyle::fitted_header : CellStyle::header);
   for (size_t k = 0; k < map.columns.size(); ++k)
     sheet.wide(place.head_row, first_column + k * place.columns_of_cell, place.columns_of_cell,
@@ -100,8 +101,7 @@ size_t write_heat_map(Worksheet& sheet, const ComparisonPlan& plan, const Outcom
     }
   }
 
-  add_scale(sheet, first_row, first_column, map.rows.size(),
-            map.columns.size() * place.columns_of_cell);
+  add_scale(sheet, first_row, first_column, map.rows.size(), map.columns.size() * place.columns_of_cell);
   return first_row + map.rows.size();
 }
 
@@ -120,13 +120,13 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
                    width == outcomes.varied()[parameters.second].values.size();
 
   sheet.text(0, 0, "Means of the runs by two parameters", CellStyle::title);
-  sheet.note(1, max<size_t>(width + 1, 2),
-             fmt::format("down: {}; across: {}{}{}{}", label_of(plan.parameters[parameters.first]),
-                         label_of(plan.parameters[parameters.second]),
-                         formulas ? "; formulas over the sheet Summary" : "",
-                         all ? "" : fmt::format("; only {} values of each, evenly spaced", most_labels),
-                         blocks < measures.size() ? fmt::format("; only the first {} measures", most_blocks) : ""),
-             10 * double(max<size_t>(width + 1, 2)));
+  sheet.note(
+      1, max<size_t>(width + 1, 2),
+      fmt::format("down: {}; across: {}{}{}{}", label_of(plan.parameters[parameters.first]),
+                  label_of(plan.parameters[parameters.second]), formulas ? "; formulas over the sheet Summary" : "",
+                  all ? "" : fmt::format("; only {} values of each, evenly spaced", most_labels),
+                  blocks < measures.size() ? fmt::format("; only the first {} measures", most_blocks) : ""),
+      10 * double(max<size_t>(width + 1, 2)));
 
   // A block for each measure.
   size_t row = 3;

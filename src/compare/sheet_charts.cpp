@@ -143,8 +143,7 @@ void insert(Worksheet& sheet, lxw_chart* chart, const ChartPlace& place) {
 
 }  // namespace
 
-SheetCharts::SheetCharts(Workbook& book, bool streamed)
-    : book_(book), points_(book.add(points_name, streamed)) {}
+SheetCharts::SheetCharts(Workbook& book, bool streamed) : book_(book), points_(book.add(points_name, streamed)) {}
 
 void SheetCharts::draw(Worksheet& sheet, const ChartData& data, const ChartPlace& place) {
   if (data.x.empty()) return;

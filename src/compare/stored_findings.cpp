@@ -45,11 +45,12 @@ bool add_rows(StoredTable& table, const ComparisonPlan& plan, const vector<Measu
 
 FoundRun found_run(size_t point, size_t equal, const MeasureFinding& finding, const Findings& findings,
                    const ComparisonPlan& plan, const Outcomes& outcomes) {
-  FoundRun run{string(outcomes.id(point)), outcomes.spread(point, finding.measure).mean(), equal - min<size_t>(equal, 1)};
+  FoundRun run{string(outcomes.id(point)), outcomes.spread(point, finding.measure).mean(),
+               equal - min<size_t>(equal, 1)};
   for (const size_t p : findings.parameters) {
     const Parameter& parameter = plan.parameters[p];
-    run.values.emplace_back(parameter.path, shown_value(outcomes.value(point, p)) +
-                                                (parameter.unit.empty() ? "" : " " + parameter.unit));
+    run.values.emplace_back(
+        parameter.path, shown_value(outcomes.value(point, p)) + (parameter.unit.empty() ? "" : " " + parameter.unit));
   }
   return run;
 }
@@ -78,11 +79,10 @@ vector<FoundMeasure> stored_findings(const string& folder, const ComparisonPlan&
     const string& name = measures[finding.measure].name;
     if (finding.points == 0 || (name != always && !contains(shown, &finding))) continue;
 
-    const size_t low = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
     FoundMeasure& one = found.emplace_back();
     one.name = name;
-    one.highest = found_run(finding.highest.front(), finding.at_highest, finding, findings, plan, outcomes);
-    one.lowest = found_run(low, finding.at_lowest, finding, findings, plan, outcomes);
+    one.highest = found_run(finding.top, finding.at_highest, finding, findings, plan, outcomes);
+    one.lowest = found_run(finding.bottom, finding.at_lowest, finding, findings, plan, outcomes);
     if (!finding.strongest) continue;
     one.strongest = plan.parameters[findings.parameters[*finding.strongest]].path;
     one.strongest_name = names[*finding.strongest];

@@ -92,8 +92,8 @@ void SummarySheet::add(size_t number, const RunRecord& run) {
   row.end();
 }
 
-/// Parameters, measures, and then, not printed, the others that differ. Of unrelated runs, parameters that some of them lack are left
-/// out.
+/// Parameters, measures, and then, not printed, the others that differ. Of unrelated runs, parameters that some of them
+/// lack are left out.
 void SummarySheet::choose_columns() {
   const auto add = [&](const auto& belongs) {
     for (size_t k = 0; k < columns_.size(); ++k)
@@ -177,7 +177,8 @@ void SummarySheet::finish() {
 
   sheet_.fit_table();
   sheet_.freeze(first_row(), 1);
-  sheet_.print_table(head_row_, printed_);
+  sheet_.print_table(head_row_);
+  sheet_.print_columns(printed_);
 }
 
 /// Tints rows that are not `done`, in any order of sorting.

@@ -293,15 +293,13 @@ void Worksheet::print_first_page() {
   worksheet_print_area(sheet_, 0, 0, to_row(rows - 1), to_column(columns - 1));
 }
 
-void Worksheet::print_table(size_t head_row, size_t columns) {
+void Worksheet::print_table(size_t head_row) {
   print_wide();
   worksheet_repeat_rows(sheet_, to_row(head_row), to_row(head_row));
-  if (columns == 0) {
-    worksheet_repeat_columns(sheet_, 0, 0);
-    return;
-  }
+  worksheet_repeat_columns(sheet_, 0, 0);
+}
 
-  // A narrow table takes the paper's height.
+void Worksheet::print_columns(size_t columns) {
   constexpr double characters_upright = 110;
   constexpr uint16_t percent = 70;
   if (width_of(columns) < characters_upright) {

@@ -112,8 +112,9 @@ class Worksheet {
   /// Prints the first page of a sheet of numbers that only charts and programs read.
   void print_first_page();
   /// The same as print_wide(), with the row of heads and the first column on each page.
-  /// `columns`: the first ones alone; 0: all.
-  void print_table(size_t head_row, size_t columns = 0);
+  void print_table(size_t head_row);
+  /// Prints these first columns alone. On upright paper, if they are narrow.
+  void print_columns(size_t columns);
 
   lxw_worksheet* get() const { return sheet_; }
   lxw_format* format(CellStyle style, const NumberLook* look = nullptr) const;

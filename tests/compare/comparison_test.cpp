@@ -81,24 +81,25 @@ TEST_F(ComparisonOfSix, SameRunsGiveTheSameBytes) {
 }
 
 TEST_F(ComparisonOfSix, WorkbookHasItsSheetsAndOpensWithTheCharts) {
-  EXPECT_EQ(book()["order"], Json({"Compare", "Summary", "Pivot", "Series", "Collisions", "Parameters", "About"}));
+  EXPECT_EQ(book()["order"],
+            Json({"Compare", "Pivot", "Summary", "Series", "Collisions", "Points", "Parameters", "About"}));
   EXPECT_EQ(book()["active"], "Compare");
   EXPECT_EQ(book()["created"], "2000-01-01 00:00:00");
 }
 
 TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
   const Json& charts = sheet("Compare")["charts"];
-  ASSERT_EQ(charts.size(), 5u);  // four measures, and energy over time
+  ASSERT_EQ(charts.size(), 4u);  // of three measures that differ, and energy over time
   EXPECT_EQ(charts[0]["kind"], "ScatterChart");
   EXPECT_EQ(charts[0]["title"], "energy lost (J) by restitution.default");
   EXPECT_EQ(charts[0]["x"], "restitution.default");
   EXPECT_EQ(charts[0]["y"], "energy lost (J)");
   ASSERT_EQ(charts[0]["series"].size(), 2u);
-  EXPECT_EQ(charts[2]["y"], "balls.red speed (m/s)");
-  EXPECT_EQ(charts[4]["title"], "kinetic energy (J) over time");
-  ASSERT_EQ(charts[4]["series"].size(), 6u);
-  EXPECT_EQ(charts[4]["series"][5]["name"], "default = 1, mass = 20 kg");
-  // None covers another, or the numbers below.
+  EXPECT_EQ(charts[1]["y"], "balls.red speed (m/s)");
+  EXPECT_EQ(charts[3]["title"], "kinetic energy (J) over time");
+  ASSERT_EQ(charts[3]["series"].size(), 6u);
+  EXPECT_EQ(charts[3]["series"][5]["name"], "default = 1, mass = 20 kg");
+  // None covers another.
   for (size_t a = 0; a < charts.size(); ++a)
     for (size_t b = 0; b < a; ++b)
       EXPECT_TRUE(charts[a]["row"] > charts[b]["last_row"] || charts[b]["row"] > charts[a]["last_row"] ||
@@ -106,9 +107,10 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
           << a << " and " << b;
   // The first line's points: x and y of the runs with a red ball of 10 kg.
   const auto cell = [&](const string& range, int row) {
+    EXPECT_TRUE(range.find("Points") != string::npos) << range;
     const int first = std::stoi(range.substr(range.find_last_of('$', range.find(':')) + 1));
     const int column = range[range.find('$') + 1] - 'A';
-    return sheet("Compare")["rows"][static_cast<size_t>(first - 1 + row)][static_cast<size_t>(column)];
+    return sheet("Points")["rows"][static_cast<size_t>(first - 1 + row)][static_cast<size_t>(column)];
   };
   for (int row = 0; row < 3; ++row) {
     const double e = 0.5 + 0.25 * row;
@@ -116,6 +118,44 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
     EXPECT_NEAR(cell(charts[0]["series"][0]["y"], row).get<double>(), 40 * (1 - e * e), 1e-12);
     EXPECT_GT(charts[0]["row"].get<int>(), 0);
   }
+}
+
+TEST_F(ComparisonOfSix, FirstSheetHasTheHighestAndTheLowestRunAndTheCorrelations) {
+  const Json& rows = sheet("Compare")["values"];
+  EXPECT_EQ(rows[1][0], "6 runs; varied: restitution.default 0.5, 0.75, 1; balls.red.mass 10 kg, 20 kg");
+  EXPECT_EQ(rows[2][0], "No run failed or is doubtful.");
+  EXPECT_EQ(rows[3][0], "The same in all runs: collisions = 1.");
+
+  // Heads, then the energy lost: 40 J (1 - e^2) for 10 kg, and 160/3 J (1 - e^2) for 20 kg.
+  const auto filled = [](const Json& row) {
+    Json cells = Json::array();
+    for (const Json& cell : row)
+      if (!cell.is_null()) cells.push_back(cell);
+    return cells;
+  };
+  EXPECT_EQ(filled(rows[5]), Json({"measure", "highest", "run", "default", "mass", "lowest", "run", "default", "mass",
+                                   "ρ default", "ρ mass"}));
+  const Json lost = filled(rows[6]);
+  EXPECT_EQ(lost[0], "energy lost (J)");
+  EXPECT_NEAR(lost[1].get<double>(), 40, 1e-12);
+  EXPECT_EQ(lost[2], "r2");
+  EXPECT_EQ(lost[4], 20);
+  EXPECT_NEAR(lost[5].get<double>(), 0, 1e-12);
+  EXPECT_EQ(lost[6], "r5 +1");
+  // Ranks of e are 1.5, 1.5, 3.5, 3.5, 5.5, 5.5, and those of the losses 5, 6, 3, 4, 1.5, 1.5.
+  EXPECT_NEAR(lost[9].get<double>(), -16 / sqrt(16 * 17.0), 1e-12);
+  EXPECT_EQ(sheet("Compare")["charts"][0]["row"].get<size_t>() > 9, true);
+}
+
+TEST_F(ComparisonOfSix, FirstSheetHasAHeatMapWithFormulas) {
+  const Json& compare = sheet("Compare");
+  size_t head = 0;
+  while (compare["rows"][head][0] != "default \\ mass") ++head;
+  EXPECT_EQ(compare["rows"][head - 1][0], "energy lost (J): down restitution.default, across balls.red.mass");
+  EXPECT_EQ(compare["rows"][head][2], 10);
+  EXPECT_EQ(compare["rows"][head + 1][0], 0.5);
+  EXPECT_TRUE(compare["rows"][head + 1][2].get<string>().starts_with("=AVERAGEIFS("));
+  EXPECT_NEAR(compare["values"][head + 1][2].get<double>(), 30, 1e-12);
 }
 
 TEST_F(ComparisonOfSix, SummarySheetHasParametersMeasuresThenWhatElseDiffers) {
@@ -184,12 +224,16 @@ TEST_F(ComparisonOfSix, NumbersAreShownWithAboutFiveDigits) {
 }
 
 TEST_F(ComparisonOfSix, PrintedPagesAreWideAndRepeatTheirHeads) {
-  for (const char* name : {"Summary", "Series", "Collisions"}) {
+  EXPECT_EQ(sheet("Summary")["print"]["rows"], "$2:$2");
+  EXPECT_EQ(sheet("Summary")["print"]["columns"], "$A:$A");
+  EXPECT_EQ(sheet("Summary")["print"]["orientation"], "portrait");
+  // The run, two parameters and four measures. Of numbers that only charts read there is one page.
+  EXPECT_EQ(sheet("Summary")["print"]["area"], Json({"$A$1:$G$8"}));
+  for (const char* name : {"Series", "Collisions", "Points"}) {
     const Json& page = sheet(name)["print"];
     EXPECT_EQ(page["orientation"], "landscape") << name;
-    EXPECT_TRUE(page["across"].is_null() || page["across"] >= 1) << name;  // 1 is the default
-    EXPECT_EQ(page["rows"], string(name) == "Summary" ? "$2:$2" : "$1:$1") << name;
-    EXPECT_EQ(page["columns"], "$A:$A") << name;
+    EXPECT_EQ(page["across"], nullptr) << name;  // 1 is the default
+    EXPECT_TRUE(page["area"][0].get<string>().ends_with("$45")) << name;
   }
   for (const auto& [name, one] : book()["sheets"].items()) {
     EXPECT_EQ(one["print"]["foot"], "&A") << name;
@@ -249,10 +293,11 @@ TEST_F(ComparisonOfSix, ThereIsNoPivotUnlessTwoVaryByThemselves) {
   for (const char* value : {"1", "2", "3"}) some.push_back({value, runs[0].folder, {value, string(value) + ".5"}});
   place->compare(twice, some, "together");
   EXPECT_EQ(place->workbook("together", true)["order"],
-            Json({"Compare", "Summary", "Series", "Collisions", "Parameters", "About"}));
+            Json({"Compare", "Summary", "Series", "Collisions", "Points", "Parameters", "About"}));
   twice.collisions = false;
   place->compare(twice, some, "together");
-  EXPECT_EQ(place->workbook("together", true)["order"], Json({"Compare", "Summary", "Series", "Parameters", "About"}));
+  EXPECT_EQ(place->workbook("together", true)["order"],
+            Json({"Compare", "Summary", "Series", "Points", "Parameters", "About"}));
 }
 
 TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
@@ -374,7 +419,7 @@ TEST_F(ComparisonOfSix, ManyRunsAreStreamed) {
   EXPECT_TRUE(sheets["Summary"]["filter"].get<string>().starts_with("A2:"));
   EXPECT_EQ(sheets["Summary"]["height"], 2102);
   EXPECT_EQ(sheets["Collisions"]["height"], 2101);
-  EXPECT_EQ(sheets["Compare"]["charts"], 5);
+  EXPECT_EQ(sheets["Compare"]["charts"], 4);
   EXPECT_EQ(rows_of(place->read("many/summary.csv"))[2100][27], "349.5");
 }
 
@@ -421,7 +466,7 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
       "out");
 
   const Json book = place.workbook("out");
-  EXPECT_EQ(book["order"], Json({"Compare", "Summary", "Series", "Parameters", "About"}));
+  EXPECT_EQ(book["order"], Json({"Compare", "Summary", "Series", "Points", "Parameters", "About"}));
   const Json& compare = book["sheets"]["Compare"];
   EXPECT_EQ(compare["charts"].size(), 4u);
 
@@ -431,13 +476,15 @@ TEST(ComparisonOfScenes, WithLittleInCommonHasBarsByRunAndAListOfWhatDiffers) {
   }
   EXPECT_EQ(compare["charts"][3]["series"][1]["name"], "cube");
 
-  EXPECT_EQ(compare["rows"][3][0], "What differs");
-  EXPECT_EQ(compare["rows"][3][4], "cube");
-  EXPECT_EQ(compare["rows"][4][0], "simulate.duration (s)");
-  EXPECT_EQ(compare["rows"][4][3], 1);
-  EXPECT_EQ(compare["rows"][4][4], 2);
-  EXPECT_EQ(compare["rows"][5][0], "balls.red.mass (kg)");
-  EXPECT_EQ(compare["rows"][5][4], "-");
+  size_t row = 0;
+  while (compare["rows"][row][0] != "What differs") ++row;
+  const auto differs = [&](size_t down, size_t column) { return compare["rows"][row + down][column]; };
+  EXPECT_EQ(differs(0, 21), "cube");
+  EXPECT_EQ(differs(1, 0), "simulate.duration (s)");
+  EXPECT_EQ(differs(1, 12), 1);
+  EXPECT_EQ(differs(1, 21), 2);
+  EXPECT_EQ(differs(2, 0), "balls.red.mass (kg)");
+  EXPECT_EQ(differs(2, 21), "-");
 
   for (const Json& head : book["sheets"]["Summary"]["rows"][1]) EXPECT_NE(head, "balls.red.mass (kg)");
   EXPECT_NE(place.read("out/summary.csv").find(",balls.red.mass,"), string::npos);

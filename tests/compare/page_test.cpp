@@ -141,7 +141,7 @@ TEST(ComparisonPage, EscapesEveryText) {
   ComparisonPlan plan;
   plan.title = hostile;
   plan.parameters = {{"restitution.default", ""}, {"<i>", "<b>"}};
-  plan.measures = {"energy_lost_J", "= hits(red) + 1 * (energy_lost_J < 3)"};
+  plan.measures = {"energy_lost_J", "= if(energy_lost_J < 3, 1, 2)"};
   place.compare(plan, runs, "out");
   const string page = place.read("out/index.html");
 
@@ -210,10 +210,10 @@ TEST(ComparisonPage, WithoutGnuplotSaysSo) {
 
 TEST(NumberLookText, HasTheDigitsOfTheColumn) {
   NumberLook look;
-  for (const double number : {12.34567, 0.5, -0.00001}) look.add(number);
-  EXPECT_EQ(look.text(12.34567), "12.346");
-  EXPECT_EQ(look.text(0.5), "0.500");
-  EXPECT_EQ(look.text(-0.00001), "0.000");
+  for (const double number : {1234.567891, 0.5, -0.00001}) look.add(number);
+  EXPECT_EQ(look.text(1234.567891), "1234.5679");
+  EXPECT_EQ(look.text(0.5), "0.5000");
+  EXPECT_EQ(look.text(-0.00001), "0.0000");
   EXPECT_EQ(look.text(std::nan("")), "");
 }
 

@@ -52,7 +52,7 @@ for sheet in book:
         "formats": [cell.number_format for cell in sheet[sheet.max_row]],
         "print": {"rows": sheet.print_title_rows, "columns": sheet.print_title_cols, "foot": sheet.oddFooter.left.text,
                   "pages": sheet.oddFooter.right.text, "across": sheet.page_setup.fitToWidth,
-                  "orientation": sheet.page_setup.orientation},
+                  "orientation": sheet.page_setup.orientation, "area": sheet.print_area},
         "widths": {name: column.width for name, column in sheet.column_dimensions.items()},
         "frozen": sheet.freeze_panes,
         "filter": sheet.auto_filter.ref,

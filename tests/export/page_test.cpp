@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "export/gnuplot.h"
+#include "export/plot_axis.h"
+#include "export/plot_script.h"
 #include "std.h"
 
 namespace carom {
@@ -38,7 +40,7 @@ TEST(PageFigures, AreOneDrawingEachWithTitleAndLegendAsText) {
   for (const string& figure : page.figures) {
     EXPECT_TRUE(figure.starts_with("<figure><figcaption>speed &lt; 3</figcaption>\n<svg class=\"chart\""));
     EXPECT_TRUE(figure.ends_with("a &amp; b</span></p></figure>\n"));
-    EXPECT_NE(figure.find("&lt;x&gt;"), string::npos);
+    EXPECT_NE(figure.find("&lt;x>"), string::npos);
     for (const char* left : {"<defs>", " id=", "xlink", "font-family", "<?xml", "Gnuplot"})
       EXPECT_EQ(figure.find(left), string::npos) << left;
   }
@@ -47,16 +49,19 @@ TEST(PageFigures, AreOneDrawingEachWithTitleAndLegendAsText) {
   EXPECT_EQ(page.figures[1].find("stroke='rgb(  0, 114, 178)'"), string::npos);
 }
 
-TEST(PageFigures, OfLinearPlotsHaveBarsThatTheMarkDoesNotCover) {
+TEST(PlotScript, OfALinearPlotHasBarsThatTheMarkDoesNotCover) {
   Plot plot = small_plot(PlotForm::points);
   for (PlotPoint& point : plot.series[0].points) {
-    point.low = point.y - 0.4;
-    point.high = point.y + 0.4;
+    const double half = point.x == 1 ? 0.001 : 0.4;
+    point.low = point.y - half;
+    point.high = point.y + half;
   }
-  const string barred = draw_svgs({&plot, 1}, find_gnuplot()).front();
-  plot.series[0].points[0].low = plot.series[0].points[0].y - 0.001;
-  plot.series[0].points[0].high = plot.series[0].points[0].y + 0.001;
-  EXPECT_LT(draw_svgs({&plot, 1}, find_gnuplot()).front().size(), barred.size());
+  // x, y, and the ends.
+  EXPECT_NE(plot_script(plot).find("$bars0 << END\n0 1 0.59999999999999998 1.3999999999999999\n"
+                                   "2 2 1.6000000000000001 2.3999999999999999\nEND\n"),
+            string::npos);
+  // The axis has room for them.
+  EXPECT_LT(axes_of(plot).y.from, 0.6);
 }
 
 TEST(PageFigures, OfNoPlotsNeedNoGnuplot) {
