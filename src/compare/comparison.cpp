@@ -34,6 +34,11 @@ ComparisonPlan titled(ComparisonPlan plan, size_t count) {
   return plan;
 }
 
+/// Among summary_columns().
+size_t status_column() {
+  return size_t(find_summary_column("status") - summary_columns().data());
+}
+
 /// What a first look at the values of all runs shows. Sheets are made in their order, before the runs are read.
 struct Variation {
   bool two = false;  // whether two parameters vary independently
@@ -73,7 +78,7 @@ class Comparison {
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
     if (!run.done) ++failed_;
-    if (run.done && run.summary[status_] == "doubtful") ++doubtful_;
+    if (run.done && run.summary[status_column()] == "doubtful") ++doubtful_;
 
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
@@ -179,7 +184,6 @@ class Comparison {
   FilePlace place_;
   ComparisonPlan plan_;
   size_t count_, failed_ = 0, doubtful_ = 0;
-  const size_t status_ = size_t(find_summary_column("status") - summary_columns().data());
   vector<Measure> measures_;
   Workbook book_;
   bool unrelated_;
