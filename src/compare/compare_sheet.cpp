@@ -24,7 +24,8 @@ constexpr size_t chart_rows = 19;
 constexpr size_t turned_rows = 2;  // beyond one, of turned heads
 
 /// The columns of each item of a row.
-constexpr size_t measure_columns = 10, number_columns = 4, value_columns = 3, parameter_columns = 2;
+constexpr size_t measure_columns = 10, number_columns = 4, value_columns = 3, parameter_columns = 2,
+                 correlation_columns = 3;
 
 struct Layout {
   size_t id;                  // columns of a run's id
@@ -89,6 +90,11 @@ void add_correlation_scale(Worksheet& sheet, size_t row, size_t column, size_t r
                                      to_column(column + width - 1), &scale);
 }
 
+/// Cells of a map with few columns are wider.
+size_t columns_of_cell(const HeatMap& map) {
+  return clamp<size_t>(most_heat_values / max<size_t>(map.columns.size(), 1), 1, 4);
+}
+
 /// The columns of the answers.
 struct AnswerColumns {
   size_t id = 0;            // columns of a run's id
@@ -102,9 +108,9 @@ AnswerColumns answer_columns(const FrontPage& page) {
   answer.id = layout_of(page).id;
   const size_t all = page.findings.parameters.size();
   size_t fixed = measure_columns + 2 * (number_columns + answer.id) + (page.plan.seed ? number_columns : 0);
-  if (fixed + all * (2 * value_columns + number_columns) <= columns) answer.values = all;
+  if (fixed + all * (2 * value_columns + correlation_columns) <= columns) answer.values = all;
   fixed += 2 * answer.values * value_columns;
-  answer.correlations = min(all, (columns - fixed) / number_columns);
+  answer.correlations = min(all, (columns - fixed) / correlation_columns);
   answer.before_correlations = fixed;
   return answer;
 }
@@ -132,7 +138,7 @@ void write_answer_heads(Worksheet& sheet, size_t row, const FrontPage& page, con
 
   if (page.plan.seed) heads.put(number_columns, Cell{"repeats, sd"}, CellStyle::fitted_header);
   for (size_t k = 0; k < answer.correlations; ++k)
-    heads.put(number_columns, Cell{"ρ " + names[k]}, CellStyle::fitted_header);
+    heads.put(correlation_columns, Cell{"ρ " + names[k]}, CellStyle::fitted_header);
 }
 
 void write_answer(Worksheet& sheet, size_t row, const FrontPage& page, const MeasureFinding& finding,
@@ -156,7 +162,7 @@ void write_answer(Worksheet& sheet, size_t row, const FrontPage& page, const Mea
   NumberLook hundredths;
   hundredths.add(0.12);
   for (size_t k = 0; k < answer.correlations; ++k)
-    cells.put(number_columns, Cell{{}, finding.correlations[k]},
+    cells.put(correlation_columns, Cell{{}, finding.correlations[k]},
               k == finding.strongest ? CellStyle::total : CellStyle::fitted, &hundredths);
 }
 
@@ -210,7 +216,7 @@ void CompareSheet::write_answers(const FrontPage& page) {
   for (const MeasureFinding* finding : shown) write_answer(sheet_, row_++, page, *finding, answer);
   if (answer.correlations > 0) {
     add_correlation_scale(sheet_, first_row, answer.before_correlations, row_ - first_row,
-                          answer.correlations * number_columns);
+                          answer.correlations * correlation_columns);
     sheet_.text(row_++, 0,
                 "ρ: Spearman's rank correlation, from -1 (falls) to 1 (rises); the strongest is bold. What rises and "
                 "falls again has none: see the figures.",
@@ -263,17 +269,23 @@ void CompareSheet::write_ranking(const FrontPage& page, const MeasureFinding& fi
   }
 }
 
-/// A heat map on the left. Cells of a map with few columns are wider.
+/// A heat map on the left.
 void CompareSheet::write_map(const FrontPage& page, const HeatMap& map, size_t measure) {
+  const auto axis = [&](const char* direction, size_t parameter, size_t shown) {
+    const size_t all = page.outcomes.varied()[parameter].values.size();
+    return fmt::format("{} {}{}", direction, page.plan.parameters[parameter].path,
+                       shown < all ? fmt::format(" ({} of {} values)", shown, all) : "");
+  };
   sheet_.text(row_, 0,
-              fmt::format("{}: down {}, across {}", label_of(page.measures[measure].name),
-                          page.plan.parameters[map.down].path, page.plan.parameters[map.across].path),
+              fmt::format("{}: {}, {}", label_of(page.measures[measure].name), axis("down", map.down, map.rows.size()),
+                          axis("across", map.across, map.columns.size())),
               CellStyle::section);
-  sheet_.set_head_row(row_ + 1, 1 + turned_rows);
-  extra_ += turned_rows;
 
-  HeatMapPlace place{row_ + 1, 0, 2, true};
-  place.columns_of_cell = clamp<size_t>(most_heat_values / max<size_t>(map.columns.size(), 1), 1, 4);
+  HeatMapPlace place{row_ + 1, 0, 2, true, columns_of_cell(map)};
+  if (place.is_turned()) {
+    sheet_.set_head_row(row_ + 1, 1 + turned_rows);
+    extra_ += turned_rows;
+  }
   write_heat_map(sheet_, page.plan, page.outcomes, map, measure, place, page.summary);
 }
 
@@ -287,7 +299,7 @@ void CompareSheet::write_block(const FrontPage& page, const MeasureFinding& find
     map = heat_map(page.outcomes, *page.heat_map, finding.measure, most_heat_values);
     rows = max(rows, (map->rows.size() + 3 + unit_rows - 1) / unit_rows * unit_rows);
   }
-  begin_page(rows + (map ? turned_rows : 0));
+  begin_page(rows + (map && columns_of_cell(*map) == 1 ? turned_rows : 0));
   sheet_.set_heights(row_, row_ + rows, row_height);
 
   // Beside a high map there is room for a chart below the ranking.
