@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "compare/heat_map.h"
+#include "compare/scenarios.h"
 #include "std.h"
 
 namespace carom {
@@ -120,7 +121,8 @@ ChartData chart_data(const Chart& chart, const ComparisonPlan& plan, const vecto
   for (size_t line = 0; line < chosen.size(); ++line) {
     line_of_value[chosen[line]] = line;
     if (lines != nullptr)
-      data.lines[line].name = name_of_value(plan.parameters[lines->parameter], lines->values[chosen[line]].text);
+      data.lines[line].name =
+          name_of_value(plan.parameters[lines->parameter], shown_value(lines->values[chosen[line]]));
   }
   if (all > chosen.size()) data.note = fmt::format("{} of {} values of {}", chosen.size(), all, chart.by);
 

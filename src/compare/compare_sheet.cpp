@@ -24,7 +24,8 @@ constexpr size_t chart_rows = 19;
 constexpr size_t turned_rows = 2;  // beyond one, of turned heads
 
 /// The columns of each item of a row.
-constexpr size_t measure_columns = 10, number_columns = 4, value_columns = 3, parameter_columns = 2;
+constexpr size_t measure_columns = 10, number_columns = 4, value_columns = 3, parameter_columns = 2,
+                 correlation_columns = 3;
 
 struct Layout {
   size_t id;                  // columns of a run's id
@@ -89,6 +90,82 @@ void add_correlation_scale(Worksheet& sheet, size_t row, size_t column, size_t r
                                      to_column(column + width - 1), &scale);
 }
 
+/// Cells of a map with few columns are wider.
+size_t columns_of_cell(const HeatMap& map) {
+  return clamp<size_t>(most_heat_values / max<size_t>(map.columns.size(), 1), 1, 4);
+}
+
+/// The columns of the answers.
+struct AnswerColumns {
+  size_t id = 0;            // columns of a run's id
+  size_t values = 0;        // how many parameters have their values, if there is room
+  size_t correlations = 0;  // how many have a correlation
+  size_t before_correlations = 0;
+};
+
+AnswerColumns answer_columns(const FrontPage& page) {
+  AnswerColumns answer;
+  answer.id = layout_of(page).id;
+  const size_t all = page.findings.parameters.size();
+  size_t fixed = measure_columns + 2 * (number_columns + answer.id) + (page.plan.seed ? number_columns : 0);
+  if (fixed + all * (2 * value_columns + correlation_columns) <= columns) answer.values = all;
+  fixed += 2 * answer.values * value_columns;
+  answer.correlations = min(all, (columns - fixed) / correlation_columns);
+  answer.before_correlations = fixed;
+  return answer;
+}
+
+/// Writes cells of a row from left to right.
+struct RowOfCells {
+  Worksheet& sheet;
+  size_t row, column = 0;
+
+  void put(size_t width, const Cell& value, CellStyle style, const NumberLook* look = nullptr) {
+    sheet.wide(row, column, width, value, style, look);
+    column += width;
+  }
+};
+
+void write_answer_heads(Worksheet& sheet, size_t row, const FrontPage& page, const AnswerColumns& answer) {
+  const vector<string> names = names_of(page);
+  RowOfCells heads{sheet, row};
+  heads.put(measure_columns, Cell{"measure"}, CellStyle::header);
+  for (const char* end : {"highest", "lowest"}) {
+    heads.put(number_columns, Cell{end}, CellStyle::fitted_header);
+    heads.put(answer.id, Cell{"run"}, CellStyle::fitted_header);
+    for (size_t k = 0; k < answer.values; ++k) heads.put(value_columns, Cell{names[k]}, CellStyle::fitted_varied);
+  }
+
+  if (page.plan.seed) heads.put(number_columns, Cell{"repeats, sd"}, CellStyle::fitted_header);
+  for (size_t k = 0; k < answer.correlations; ++k)
+    heads.put(correlation_columns, Cell{"ρ " + names[k]}, CellStyle::fitted_header);
+}
+
+void write_answer(Worksheet& sheet, size_t row, const FrontPage& page, const MeasureFinding& finding,
+                  const AnswerColumns& answer) {
+  const NumberLook look = look_of(page, finding);
+  RowOfCells cells{sheet, row};
+  cells.put(measure_columns, Cell{label_of(page.measures[finding.measure].name)}, CellStyle::total);
+
+  for (const auto& [point, equal] : {pair(finding.top, finding.at_highest), pair(finding.bottom, finding.at_lowest)}) {
+    cells.put(number_columns, Cell{{}, value_of(page, finding, point)}, CellStyle::fitted, &look);
+    const string others = equal > 1 ? fmt::format(" +{}", equal - 1) : "";
+    cells.put(answer.id, Cell{string(page.outcomes.id(point)) + others}, CellStyle::fitted_name);
+    for (size_t k = 0; k < answer.values; ++k) {
+      const NumberLook values = look_of(page, k);
+      cells.put(value_columns, page.outcomes.value(point, page.findings.parameters[k]), CellStyle::fitted_varied,
+                &values);
+    }
+  }
+
+  if (page.plan.seed) cells.put(number_columns, Cell{{}, finding.spread_of_repeats}, CellStyle::fitted, &look);
+  NumberLook hundredths;
+  hundredths.add(0.12);
+  for (size_t k = 0; k < answer.correlations; ++k)
+    cells.put(correlation_columns, Cell{{}, finding.correlations[k]},
+              k == finding.strongest ? CellStyle::total : CellStyle::fitted, &hundredths);
+}
+
 }  // namespace
 
 /// Begins a new printed page unless so many rows still have room on this one.
@@ -132,70 +209,17 @@ void CompareSheet::write_differences(const FrontPage& page) {
 void CompareSheet::write_answers(const FrontPage& page) {
   const vector<const MeasureFinding*> shown = shown_findings(page.findings, most_measures);
   if (shown.empty()) return;
-  const size_t id = layout_of(page).id, all = page.findings.parameters.size();
-  const vector<string> names = names_of(page);
-  vector<NumberLook> looks;
-  for (size_t k = 0; k < all; ++k) looks.push_back(look_of(page, k));
-  const bool repeats = page.plan.seed.has_value();
-
-  // Parameters' values have columns if there is room.
-  const size_t spread = repeats ? number_columns : 0;
-  const size_t fixed = measure_columns + 2 * (number_columns + id) + spread;
-  const size_t values = fixed + all * (2 * value_columns + number_columns) <= columns ? all : 0;
-  const size_t correlated = min(all, (columns - fixed - 2 * values * value_columns) / number_columns);
-
-  size_t column = 0;
-  vector<pair<size_t, size_t>> strengths;  // columns of correlations, and widths
-  const auto head = [&](size_t width, const string& text, CellStyle style = CellStyle::fitted_header) {
-    sheet_.wide(row_, column, width, Cell{text}, style);
-    column += width;
-  };
-  head(measure_columns, "measure", CellStyle::header);
-  for (const char* end : {"highest", "lowest"}) {
-    head(number_columns, end);
-    head(id, "run");
-    for (size_t k = 0; k < values; ++k) head(value_columns, names[k], CellStyle::fitted_varied);
-  }
-  if (repeats) head(number_columns, "repeats, sd");
-  const size_t first_strength = column;
-  for (size_t k = 0; k < correlated; ++k) head(number_columns, "ρ " + names[k]);
-  ++row_;
+  const AnswerColumns answer = answer_columns(page);
+  write_answer_heads(sheet_, row_++, page, answer);
 
   const size_t first_row = row_;
-  for (const MeasureFinding* one : shown) {
-    const MeasureFinding& finding = *one;
-    const NumberLook look = look_of(page, finding);
-    column = 0;
-    const auto cell = [&](size_t width, const Cell& value, CellStyle style, const NumberLook* how) {
-      sheet_.wide(row_, column, width, value, style, how);
-      column += width;
-    };
-
-    cell(measure_columns, Cell{label_of(page.measures[finding.measure].name)}, CellStyle::total, nullptr);
-    for (const auto& [point, equal] :
-         {pair(finding.top, finding.at_highest), pair(finding.bottom, finding.at_lowest)}) {
-      cell(number_columns, Cell{{}, value_of(page, finding, point)}, CellStyle::fitted, &look);
-      cell(id, Cell{string(page.outcomes.id(point)) + (equal > 1 ? fmt::format(" +{}", equal - 1) : "")},
-           CellStyle::fitted_name, nullptr);
-      for (size_t k = 0; k < values; ++k)
-        cell(value_columns, page.outcomes.value(point, page.findings.parameters[k]), CellStyle::fitted_varied,
-             &looks[k]);
-    }
-
-    if (repeats) cell(number_columns, Cell{{}, finding.spread_of_repeats}, CellStyle::fitted, &look);
-    NumberLook hundredths;
-    hundredths.add(0.12);
-    for (size_t k = 0; k < correlated; ++k)
-      cell(number_columns, Cell{{}, finding.correlations[k]},
-           k == finding.strongest ? CellStyle::total : CellStyle::fitted, &hundredths);
-    ++row_;
-  }
-
-  if (correlated > 0) {
-    add_correlation_scale(sheet_, first_row, first_strength, row_ - first_row, correlated * number_columns);
+  for (const MeasureFinding* finding : shown) write_answer(sheet_, row_++, page, *finding, answer);
+  if (answer.correlations > 0) {
+    add_correlation_scale(sheet_, first_row, answer.before_correlations, row_ - first_row,
+                          answer.correlations * correlation_columns);
     sheet_.text(row_++, 0,
-                "ρ: Spearman's rank correlation, from -1 (falls) to 1 (rises); the strongest is bold. A value at which "
-                "a measure turns round counts as none: see the figures.",
+                "ρ: Spearman's rank correlation, from -1 (falls) to 1 (rises); the strongest is bold. What rises and "
+                "falls again has none: see the figures.",
                 CellStyle::note);
   }
   ++row_;
@@ -245,38 +269,49 @@ void CompareSheet::write_ranking(const FrontPage& page, const MeasureFinding& fi
   }
 }
 
+/// A heat map on the left.
+void CompareSheet::write_map(const FrontPage& page, const HeatMap& map, size_t measure) {
+  const auto axis = [&](const char* direction, size_t parameter, size_t shown) {
+    const size_t all = page.outcomes.varied()[parameter].values.size();
+    return fmt::format("{} {}{}", direction, page.plan.parameters[parameter].path,
+                       shown < all ? fmt::format(" ({} of {} values)", shown, all) : "");
+  };
+  sheet_.text(row_, 0,
+              fmt::format("{}: {}, {}", label_of(page.measures[measure].name), axis("down", map.down, map.rows.size()),
+                          axis("across", map.across, map.columns.size())),
+              CellStyle::section);
+
+  HeatMapPlace place{row_ + 1, 0, 2, true, columns_of_cell(map)};
+  if (place.is_turned()) {
+    sheet_.set_head_row(row_ + 1, 1 + turned_rows);
+    extra_ += turned_rows;
+  }
+  write_heat_map(sheet_, page.plan, page.outcomes, map, measure, place, page.summary);
+}
+
 /// A measure with its figure and its ranking. `left`: charts of the measure, of which those with room are taken.
 void CompareSheet::write_block(const FrontPage& page, const MeasureFinding& finding, vector<ChartData>& left,
                                SheetCharts& charts) {
+  const bool beside = layout_of(page).beside;
+  size_t rows = beside ? unit_rows : 2 * unit_rows;
+  optional<HeatMap> map;
+  if (page.heat_map) {
+    map = heat_map(page.outcomes, *page.heat_map, finding.measure, most_heat_values);
+    rows = max(rows, (map->rows.size() + 3 + unit_rows - 1) / unit_rows * unit_rows);
+  }
+  begin_page(rows + (map && columns_of_cell(*map) == 1 ? turned_rows : 0));
+  sheet_.set_heights(row_, row_ + rows, row_height);
+
+  // Beside a high map there is room for a chart below the ranking.
   const auto take_chart = [&](size_t row, size_t column, size_t width) {
     if (left.empty()) return;
     charts.draw(sheet_, left.front(),
                 {row, column, double(width) * column_pixels - 6, double(unit_rows) * row_pixels - 6});
     left.erase(left.begin());
   };
-
-  size_t rows = layout_of(page).beside ? unit_rows : 2 * unit_rows;
-  if (!page.heat_map) {
-    begin_page(rows);
-    sheet_.set_heights(row_, row_ + rows, row_height);
-    for (size_t row = 0; row < rows; row += unit_rows) take_chart(row_ + row, 0, figure_columns);
-  } else {
-    // Cells of a map with few columns are wider.
-    const HeatMap map = heat_map(page.outcomes, *page.heat_map, finding.measure, most_heat_values);
-    rows = max(rows, (map.rows.size() + 3 + unit_rows - 1) / unit_rows * unit_rows);
-    begin_page(rows + turned_rows);
-    sheet_.set_heights(row_, row_ + rows, row_height);
-    sheet_.text(row_, 0,
-                fmt::format("{}: down {}, across {}", label_of(page.measures[finding.measure].name),
-                            page.plan.parameters[map.down].path, page.plan.parameters[map.across].path),
-                CellStyle::section);
-    sheet_.set_head_row(row_ + 1, 1 + turned_rows);
-    HeatMapPlace place{row_ + 1, 0, 2, true};
-    place.columns_of_cell = clamp<size_t>(most_heat_values / max<size_t>(map.columns.size(), 1), 1, 4);
-    write_heat_map(sheet_, page.plan, page.outcomes, map, finding.measure, place, page.summary);
-    extra_ += turned_rows;
-    if (layout_of(page).beside && rows > unit_rows) take_chart(row_ + unit_rows, figure_columns + 1, ranking_columns);
-  }
+  if (map) write_map(page, *map, finding.measure);
+  if (map && beside && rows > unit_rows) take_chart(row_ + unit_rows, figure_columns + 1, ranking_columns);
+  for (size_t row = 0; !map && row < rows; row += unit_rows) take_chart(row_ + row, 0, figure_columns);
 
   write_ranking(page, finding, figure_columns + 1);
   row_ += rows;

@@ -36,6 +36,7 @@ class CompareSheet {
   void write_differences(const FrontPage& page);
   void write_answers(const FrontPage& page);
   void write_ranking(const FrontPage& page, const MeasureFinding& finding, size_t first_column);
+  void write_map(const FrontPage& page, const HeatMap& map, size_t measure);
   void write_block(const FrontPage& page, const MeasureFinding& finding, vector<ChartData>& left, SheetCharts& charts);
   void begin_page(size_t rows);
 

@@ -36,6 +36,11 @@ ComparisonPlan titled(ComparisonPlan plan, size_t count) {
   return plan;
 }
 
+/// Among summary_columns().
+size_t status_column() {
+  return size_t(find_summary_column("status") - summary_columns().data());
+}
+
 /// What a first look at the values of all runs shows. Sheets are made in their order, before the runs are read.
 struct Variation {
   bool two = false;  // whether two parameters vary independently
@@ -76,7 +81,7 @@ class Comparison {
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
     if (!run.done) ++count_.failed;
-    if (run.done && run.summary[status_] == "doubtful") ++count_.doubtful;
+    if (run.done && run.summary[status_column()] == "doubtful") ++count_.doubtful;
 
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
@@ -116,8 +121,8 @@ class Comparison {
     files.back()->complete();
 
     files.push_back(make_unique<OutputFile>(place_, page_name));
-    files.back()->write(comparison_page(
-        {plan_, measures_, outcomes_, findings, runs_, parameters_.differences(), common, count_}));
+    files.back()->write(
+        comparison_page({plan_, measures_, outcomes_, findings, runs_, parameters_.differences(), common, count_}));
     files.back()->complete();
     return files;
   }
@@ -147,8 +152,8 @@ class Comparison {
     string state = count_.failed + count_.doubtful == 0 ? "No run failed or is doubtful" : "";
     if (count_.failed > 0) state += how_many(count_.failed, "run failed", "runs failed");
     if (count_.doubtful > 0)
-      state +=
-          fmt::format("{}{}", state.empty() ? "" : ", ", how_many(count_.doubtful, "run is doubtful", "runs are doubtful"));
+      state += fmt::format("{}{}", state.empty() ? "" : ", ",
+                           how_many(count_.doubtful, "run is doubtful", "runs are doubtful"));
 
     string same;
     for (const MeasureFinding& finding : findings.measures)
@@ -189,7 +194,6 @@ class Comparison {
   FilePlace place_;
   ComparisonPlan plan_;
   RunCounts count_;
-  const size_t status_ = size_t(find_summary_column("status") - summary_columns().data());
   vector<Measure> measures_;
   Workbook book_;
   bool unrelated_;

@@ -29,12 +29,14 @@ void rank(MeasureFinding& finding, const vector<double>& values) {
 
   ranges::stable_sort(order, [&](size_t a, size_t b) { return values[a] > values[b]; });
   const double high = values[order.front()], low = values[order.back()];
-  finding.is_constant = high - low <= rounding * max(std::abs(high), std::abs(low));
-  finding.at_highest = size_t(ranges::count(values, high));
-  finding.at_lowest = size_t(ranges::count(values, low));
-
-  finding.top = order.front();
-  finding.bottom = size_t(ranges::find(values, low) - values.begin());
+  const double noise = rounding * max(std::abs(high), std::abs(low));
+  const auto is_high = [&](double value) { return value >= high - noise; };
+  const auto is_low = [&](double value) { return value <= low + noise; };
+  finding.is_constant = high - low <= noise;
+  finding.at_highest = size_t(ranges::count_if(values, is_high));
+  finding.at_lowest = size_t(ranges::count_if(values, is_low));
+  finding.top = size_t(ranges::find_if(values, is_high) - values.begin());
+  finding.bottom = size_t(ranges::find_if(values, is_low) - values.begin());
 
   // The lowest first, those of equal values in the order of the runs.
   const size_t tops = min(order.size(), MeasureFinding::most_ranked);

@@ -27,7 +27,7 @@ struct MeasureFinding {
   vector<size_t> highest;
   /// Those with the lowest ones, the lowest first. Points of `highest` are not among them.
   vector<size_t> lowest;
-  /// The first points with the very highest and the very lowest value.
+  /// The first points with the very highest and the very lowest value. Differences by rounding do not count.
   size_t top = 0, bottom = 0;
   /// How many points have the very highest and the very lowest value.
   size_t at_highest = 0, at_lowest = 0;

@@ -88,6 +88,7 @@ void ParameterSheet::finish(const Outcomes& outcomes, const vector<SceneValue>& 
     sheet_.text(row, 1, value.unit);
     sheet_.cell(row++, 2, cell_of(value.text));
   }
+
   sheet_.fit_all(9, 40, 1);
   sheet_.print_wide();
   sheet_.print_columns(max<size_t>(5, 2 + differences_.runs.size()));

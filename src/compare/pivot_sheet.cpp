@@ -77,7 +77,7 @@ size_t write_heat_map(Worksheet& sheet, const ComparisonPlan& plan, const Outcom
              place.is_small ? CellStyle::fitted_header : CellStyle::header);
   for (size_t k = 0; k < map.columns.size(); ++k)
     sheet.wide(place.head_row, first_column + k * place.columns_of_cell, place.columns_of_cell,
-               across.values[map.columns[k]], place.is_small ? CellStyle::turned_header : CellStyle::varied_header,
+               across.values[map.columns[k]], place.is_turned() ? CellStyle::turned_header : CellStyle::varied_header,
                &across_look);
 
   const bool formulas = has_formulas(outcomes, map, summary);

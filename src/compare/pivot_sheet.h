@@ -22,8 +22,11 @@ void write_pivot(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
 struct HeatMapPlace {
   size_t head_row, first_column;
   size_t columns_of_head = 1;  // of the heads of rows
-  bool is_small = false;       // whether numbers shrink to their cells, and the heads of columns are turned
+  bool is_small = false;       // whether texts shrink to their cells
   size_t columns_of_cell = 1;
+
+  /// Whether the heads of columns are turned.
+  bool is_turned() const { return is_small && columns_of_cell == 1; }
 };
 /// Writes means as formulas on the sheet Summary if `summary` has rows. Returns the row below it.
 size_t write_heat_map(Worksheet& sheet, const ComparisonPlan& plan, const Outcomes& outcomes, const HeatMap& map,

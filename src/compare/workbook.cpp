@@ -35,72 +35,51 @@ Made* made(Made* thing) {
   return thing;
 }
 
+/// What a style has beyond the plain one.
+struct StyleRow {
+  CellStyle style;
+  lxw_color_t fill = 0;  // 0: none
+  bool bold = false, wraps = false, shrinks = false, underlined = false, turned = false;
+  int aligned = LXW_ALIGN_NONE;
+  double size = 0;          // points; 0: that of the others
+  lxw_color_t letters = 0;  // black
+  const char* numbers = nullptr;
+};
+
+constexpr int middle = LXW_ALIGN_VERTICAL_CENTER, top = LXW_ALIGN_VERTICAL_TOP, center = LXW_ALIGN_CENTER;
+constexpr StyleRow style_rows[] = {
+    {CellStyle::plain},
+    {CellStyle::whole, 0, false, false, false, false, false, LXW_ALIGN_NONE, 0, 0, "#,##0"},
+    {CellStyle::varied, tint},
+    {CellStyle::header, header_tint, true, true, false, true, false, middle},
+    {CellStyle::varied_header, varied_header_tint, true, true, false, true, false, middle},
+    {CellStyle::title, 0, true, false, false, false, false, LXW_ALIGN_NONE, 14},
+    {CellStyle::section, 0, true},
+    {CellStyle::note, 0, false, false, false, false, false, LXW_ALIGN_NONE, 0, grey},
+    {CellStyle::wrapped, 0, false, true, false, false, false, top},
+    {CellStyle::fitted, 0, false, false, true},
+    {CellStyle::fitted_name, 0, false, false, true, false, false, center},
+    {CellStyle::fitted_varied, tint, false, false, true, false, false, center},
+    {CellStyle::fitted_header, header_tint, true, false, true, true, false, center},
+    {CellStyle::turned_header, varied_header_tint, true, false, true, true, true, center},
+    {CellStyle::total, 0, true, false, true},
+    {CellStyle::doubtful, doubtful_tint},
+    {CellStyle::failed, failed_tint}};
+
 lxw_format* make_format(lxw_workbook* book, CellStyle style) {
   lxw_format* format = made(workbook_add_format(book));
-  switch (style) {
-    case CellStyle::whole:
-      format_set_num_format(format, "#,##0");
-      break;
-    case CellStyle::varied:
-      format_set_bg_color(format, tint);
-      break;
+  const StyleRow& row = *ranges::find(style_rows, style, &StyleRow::style);
+  if (row.fill != 0) format_set_bg_color(format, row.fill);
+  if (row.letters != 0) format_set_font_color(format, row.letters);
+  if (row.size > 0) format_set_font_size(format, row.size);
+  if (row.bold) format_set_bold(format);
 
-    case CellStyle::header:
-    case CellStyle::varied_header:
-      format_set_bold(format);
-      format_set_bg_color(format, style == CellStyle::header ? header_tint : varied_header_tint);
-      format_set_bottom(format, LXW_BORDER_THIN);
-      format_set_text_wrap(format);
-      format_set_align(format, LXW_ALIGN_VERTICAL_CENTER);
-      break;
-
-    case CellStyle::title:
-      format_set_bold(format);
-      format_set_font_size(format, 14);
-      break;
-    case CellStyle::section:
-      format_set_bold(format);
-      break;
-    case CellStyle::note:
-      format_set_font_color(format, grey);
-      break;
-
-    case CellStyle::wrapped:
-      format_set_text_wrap(format);
-      format_set_align(format, LXW_ALIGN_VERTICAL_TOP);
-      break;
-
-    case CellStyle::fitted:
-    case CellStyle::fitted_name:
-    case CellStyle::fitted_varied:
-      format_set_shrink(format);
-      if (style != CellStyle::fitted) format_set_align(format, LXW_ALIGN_CENTER);
-      if (style == CellStyle::fitted_varied) format_set_bg_color(format, tint);
-      break;
-    case CellStyle::fitted_header:
-    case CellStyle::turned_header:
-      format_set_bold(format);
-      format_set_bg_color(format, style == CellStyle::fitted_header ? header_tint : varied_header_tint);
-      format_set_bottom(format, LXW_BORDER_THIN);
-      format_set_shrink(format);
-      format_set_align(format, LXW_ALIGN_CENTER);
-      if (style == CellStyle::turned_header) format_set_rotation(format, 90);
-      break;
-    case CellStyle::total:
-      format_set_bold(format);
-      format_set_shrink(format);
-      break;
-
-    case CellStyle::doubtful:
-      format_set_bg_color(format, doubtful_tint);
-      break;
-    case CellStyle::failed:
-      format_set_bg_color(format, failed_tint);
-      break;
-
-    case CellStyle::plain:
-      break;
-  }
+  if (row.wraps) format_set_text_wrap(format);
+  if (row.shrinks) format_set_shrink(format);
+  if (row.underlined) format_set_bottom(format, LXW_BORDER_THIN);
+  if (row.turned) format_set_rotation(format, 90);
+  if (row.aligned != LXW_ALIGN_NONE) format_set_align(format, uint8_t(row.aligned));
+  if (row.numbers != nullptr) format_set_num_format(format, row.numbers);
   return format;
 }
 

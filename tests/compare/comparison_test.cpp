@@ -135,6 +135,7 @@ TEST_F(ComparisonOfSix, FirstSheetHasTheHighestAndTheLowestRunAndTheCorrelations
   };
   EXPECT_EQ(filled(rows[5]), Json({"measure", "highest", "run", "restitution.default", "mass", "lowest", "run",
                                    "restitution.default", "mass", "ρ restitution.default", "ρ mass"}));
+
   const Json lost = filled(rows[6]);
   EXPECT_EQ(lost[0], "energy lost (J)");
   EXPECT_NEAR(lost[1].get<double>(), 40, 1e-12);
@@ -142,9 +143,9 @@ TEST_F(ComparisonOfSix, FirstSheetHasTheHighestAndTheLowestRunAndTheCorrelations
   EXPECT_EQ(lost[4], 20);
   EXPECT_NEAR(lost[5].get<double>(), 0, 1e-12);
   EXPECT_EQ(lost[6], "r5 +1");
+
   // Ranks of e are 1.5, 1.5, 3.5, 3.5, 5.5, 5.5, and those of the losses 5, 6, 3, 4, 1.5, 1.5.
   EXPECT_NEAR(lost[9].get<double>(), -16 / sqrt(16 * 17.0), 1e-12);
-  EXPECT_EQ(sheet("Compare")["charts"][0]["row"].get<size_t>() > 9, true);
 }
 
 TEST_F(ComparisonOfSix, FirstSheetHasAHeatMapWithFormulas) {
