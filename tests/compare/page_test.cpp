@@ -88,6 +88,7 @@ TEST_F(PageOfSix, LinksOnlyWhatIsThere) {
     path = std::regex_replace(path, std::regex("%23"), "#");
     EXPECT_TRUE(std::filesystem::exists(*place / ("out/" + path))) << address;
   }
+
   for (const char* address : {"summary.csv", "comparison.xlsx", "../runs/r1/", "../runs/r2/sheet.png",
                               "../runs/r3/animation.mp4", "../runs/r4/film%20%231.gif", "#n6"})
     EXPECT_TRUE(contains(found, string(address))) << address;
