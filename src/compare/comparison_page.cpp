@@ -6,8 +6,9 @@
 #include "compare/page_charts.h"
 #include "compare/page_script.h"
 #include "compare/scenarios.h"
-#include "export/child.h"
+#include "export/gnuplot.h"
 #include "export/page.h"
+#include "files/export_error.h"
 #include "std.h"
 #include "yaml/joined.h"
 
@@ -93,20 +94,21 @@ class ComparisonPage {
     draw_plots(std::move(plots), places);
   }
 
+  /// A comparison does not fail for want of charts.
   void draw_plots(vector<Plot> plots, const vector<size_t>& places) {
     if (plots.empty()) return;
-    const auto gnuplot = find_program("gnuplot");
-    if (!gnuplot) {
-      missing_ = fmt::format(
-          "<p class=\"doubtful\">Without {}, because gnuplot is not on the PATH. Install it (on Debian: apt install "
-          "gnuplot-nox), and compare again with --force.</p>\n",
-          how_many(plots.size(), "chart", "charts"));
-      return;
+    const size_t count = plots.size();
+    try {
+      const PageFigures figures = draw_figures(std::move(plots), find_gnuplot());
+      marks_ = figures.marks;
+      for (size_t i = 0; i < count; ++i) charts_[places[i]].push_back(figures.figures[i]);
+    } catch (const ExportError& error) {
+      // The remedy is a line of its own.
+      string why = error.what();
+      if (const size_t line = why.find("\n  "); line != string::npos) why.replace(line, 3, ": ");
+      missing_ = fmt::format("<p class=\"doubtful\">{} left out: {}. Then compare the runs again.</p>\n",
+                             how_many(count, "chart is", "charts are"), html_text(why));
     }
-
-    const PageFigures figures = draw_figures(std::move(plots), *gnuplot);
-    marks_ = figures.marks;
-    for (size_t i = 0; i < places.size(); ++i) charts_[places[i]].push_back(figures.figures[i]);
   }
 
   string facts() const {
