@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
 #include "commands/program.h"
@@ -149,8 +150,12 @@ TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
   ASSERT_EQ(sweep.code, 0) << sweep.err;
   const Finished run = here.carom({"compare", "swept"});
   ASSERT_EQ(run.code, 0) << run.err;
-  for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx", "index.html"})
+  for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx"})
     EXPECT_EQ(here.read(string("output/comparison/") + file), here.read(string("swept/") + file)) << file;
+  // The page's links to the runs are relative.
+  const string page = here.read("output/comparison/index.html");
+  EXPECT_NE(page.find("\"../../swept/runs/r0001/\""), string::npos);
+  EXPECT_EQ(std::regex_replace(page, std::regex("\\.\\./\\.\\./swept/"), ""), here.read("swept/index.html"));
 }
 
 TEST(CompareCommand, TakesASweepsRunsInTheOrderOfTheirNumbers) {
