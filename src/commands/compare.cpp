@@ -238,8 +238,8 @@ const Command compare_command = {
     "  carom compare output/falls --measures collisions,balls.red.speed_m_per_s\n"
     "  carom compare output/a output/b --video -o side  their films side by side too\n",
     "A folder is that of a run, or of a sweep with all its runs. The parameters are the values in which the\n"
-    "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, manifest.json and, with\n"
-    "repeats (scenes that differ only in the seed), repeats.csv.\n\n"
+    "scenes differ. The comparison gets summary.csv (a row a run), comparison.xlsx, index.html for browsers,\n"
+    "manifest.json and, with repeats (scenes that differ only in the seed), repeats.csv.\n\n"
     "Exit codes: 0 done or up to date, 1 the comparison failed, 2 the command line is wrong, 130 or 143\n"
     "interrupted.",
     {{"--output", "the comparison's folder (output/comparison)"},

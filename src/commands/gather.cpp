@@ -227,8 +227,8 @@ const Command gather_command = {
     "joins the parts of a sweep that was made with --shard",
     "  carom gather output/falls                             parts that were written into one folder\n"
     "  carom gather output/falls part1 part2                 parts from elsewhere, copied into it\n",
-    "It writes summary.csv, comparison.xlsx and manifest.json, byte for byte as the same sweep in one part.\n"
-    "If runs are missing, it lists them and writes nothing.\n\n"
+    "It writes summary.csv, comparison.xlsx, index.html and manifest.json, byte for byte as the same sweep\n"
+    "in one part. If runs are missing, it lists them and writes nothing.\n\n"
     "Exit codes: 0 done, 1 runs are missing, 2 the command line is wrong or there is no sweep, 3 some\n"
     "runs failed, 130 or 143 interrupted.",
     {{"--progress"}},

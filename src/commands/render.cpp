@@ -130,6 +130,13 @@ class Planner {
     if (renews && planned.found.content != FolderContent::this_run) planned.found = look_into_own(planned.folder);
   }
 
+  /// The names by which the page of a run finds its pictures.
+  static vector<string> drawn_files(const Output& output) {
+    vector<string> names = names_of(output, true);
+    if (output.video) names.push_back(output.video->file);
+    return names;
+  }
+
   /// The outputs of a scene that this command draws. The charts of a run stay.
   Output outputs_drawn(const Scene& scene) const {
     if (!options_.at) return restricted(scene.output, names_of(scene.output, true));
@@ -178,6 +185,12 @@ class Planner {
           fmt::format("--set changes the title, which the charts in {}/ show and render leaves as they are\n"
                       "  render to another folder with -o",
                       plot_files.folder));
+
+    if (kept.report && (scene.title != former.scene.title || drawn_files(output) != drawn_files(former.scene.output)))
+      throw ExportError(
+          fmt::format("the pictures have other names or another title than in {}, which render leaves as it is\n"
+                      "  render to another folder with -o",
+                      page_name));
 
     for (const OutputKind& kind : output_kinds())
       if (kind.asked(output)) kind.member.add(kept, output);

@@ -183,10 +183,10 @@ const Command sweep_command = {
     "  carom sweep scene.yaml --latin 50 --grid balls.red.mass=5:10 --grid gravity.y=-10:-1\n"
     "  carom sweep sweep.yaml --shard 2/8                    the second of eight parts\n",
     "Without -o a sweep goes to output/<sweep file's stem>/: runs/r0001/..., summary.csv with a row a\n"
-    "run, comparison.xlsx and manifest.json; with --grid to output/<scene file's stem>.sweep/. All\n"
-    "scenarios are checked before the first is run. Scenarios with the same motion share one\n"
-    "simulation. A failed run leaves error.txt in its folder and does not stop the others. The same\n"
-    "command runs what is missing or failed.\n\n"
+    "run, comparison.xlsx, index.html for browsers and manifest.json; with --grid to output/<scene\n"
+    "file's stem>.sweep/. All scenarios are checked before the first is run. Scenarios with the same\n"
+    "motion share one simulation. A failed run leaves error.txt in its folder and does not stop the\n"
+    "others. The same command runs what is missing or failed.\n\n"
     "Exit codes: 0 done or up to date, 1 the folder cannot be written, 2 the command line, the sweep or\n"
     "its scene is wrong, 3 some runs failed, 130 or 143 interrupted.",
     {{"--output", "the sweep's folder (output/<sweep file's stem>)"},

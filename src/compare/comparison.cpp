@@ -9,6 +9,7 @@
 #include "compare/common_values.h"
 #include "compare/compare_sheet.h"
 #include "compare/compared_run.h"
+#include "compare/comparison_page.h"
 #include "compare/data_dictionary.h"
 #include "compare/findings.h"
 #include "compare/heat_map.h"
@@ -22,6 +23,7 @@
 #include "compare/workbook.h"
 #include "files/manifest.h"
 #include "files/run_folder.h"
+#include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
@@ -52,7 +54,7 @@ class Comparison {
   Comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count, Variation variation)
       : place_(place),
         plan_(titled(plan, count)),
-        count_(count),
+        count_{count},
         measures_(measures_of(plan)),
         book_(place, workbook_name, plan_.title),
         unrelated_(variation.unrelated),
@@ -67,6 +69,7 @@ class Comparison {
         parameters_(book_.add("Parameters"), plan_, unrelated_),
         about_(book_.add("About")),
         outcomes_(plan, measures_.size(), count),
+        runs_(place, plan_, measures_, unrelated_),
         series_(std::move(variation.scenarios), measures_) {
     summary_.write_heads();
   }
@@ -77,8 +80,8 @@ class Comparison {
 
     compared.id = valid_utf8(compared.id);
     const RunRecord run = read_run(std::move(compared), measures_);
-    if (!run.done) ++failed_;
-    if (run.done && run.summary[status_column()] == "doubtful") ++doubtful_;
+    if (!run.done) ++count_.failed;
+    if (run.done && run.summary[status_column()] == "doubtful") ++count_.doubtful;
 
     summary_.add(number, run);
     outcomes_.add(number, run.run, run.done, run.measures);
@@ -86,9 +89,10 @@ class Comparison {
     if (collisions_) collisions_->add(run);
     common_.add(run);
     parameters_.add(run.run);
+    runs_.add(run);
   }
 
-  size_t doubtful() const { return doubtful_; }  // so far
+  size_t doubtful() const { return count_.doubtful; }  // so far
 
   vector<unique_ptr<OutputFile>> finish() {
     outcomes_.finish();
@@ -107,12 +111,18 @@ class Comparison {
     const Findings findings = findings_of(outcomes_, measures_.size(), unrelated_);
     const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
     if (collisions_) collisions_->finish();
-    parameters_.finish(outcomes_, common_.values());
+    const vector<SceneValue> common = common_.values();
+    parameters_.finish(outcomes_, common);
     write_front(findings, placed);
     write_about(about_, plan_, measures_, remarks());
 
     files.push_back(make_unique<OutputFile>(place_, workbook_name));
     book_.write(*files.back());
+    files.back()->complete();
+
+    files.push_back(make_unique<OutputFile>(place_, page_name));
+    files.back()->write(
+        comparison_page({plan_, measures_, outcomes_, findings, runs_, parameters_.differences(), common, count_}));
     files.back()->complete();
     return files;
   }
@@ -121,7 +131,7 @@ class Comparison {
   void write_front(const Findings& findings, const vector<PlacedSeries>& placed) {
     const auto two = unrelated_ ? nullopt : heat_map_parameters(plan_, outcomes_);
     const SummaryPlace place{summary_.parameter_columns(), summary_.measure_columns(), summary_.first_row(),
-                             summary_.is_table() ? count_ : 0};
+                             summary_.is_table() ? count_.all : 0};
     if (pivot_ != nullptr && two) write_pivot(*pivot_, plan_, measures_, outcomes_, *two, place);
 
     // A grid of two parameters begins with a heat map; of more parameters it is a mean over the others.
@@ -132,22 +142,22 @@ class Comparison {
 
   /// What the runs are, how far they can be trusted, and what does not differ.
   vector<string> lines(const Findings& findings) const {
-    string text = how_many(count_, "run", "runs");
+    string text = how_many(count_.all, "run", "runs");
     if (unrelated_)
       text += fmt::format(" of scenes with little in common; {}",
                           how_many(plan_.parameters.size(), "value differs", "values differ"));
     else if (!plan_.parameters.empty())
       text += "; varied: " + varied_ranges(plan_, outcomes_);
 
-    string state = failed_ + doubtful_ == 0 ? "No run failed or is doubtful" : "";
-    if (failed_ > 0) state += how_many(failed_, "run failed", "runs failed");
-    if (doubtful_ > 0)
-      state +=
-          fmt::format("{}{}", state.empty() ? "" : ", ", how_many(doubtful_, "run is doubtful", "runs are doubtful"));
+    string state = count_.failed + count_.doubtful == 0 ? "No run failed or is doubtful" : "";
+    if (count_.failed > 0) state += how_many(count_.failed, "run failed", "runs failed");
+    if (count_.doubtful > 0)
+      state += fmt::format("{}{}", state.empty() ? "" : ", ",
+                           how_many(count_.doubtful, "run is doubtful", "runs are doubtful"));
 
     string same;
     for (const MeasureFinding& finding : findings.measures)
-      if (finding.is_constant && finding.points == outcomes_.points() && count_ > 1)
+      if (finding.is_constant && finding.points == outcomes_.points() && count_.all > 1)
         same += fmt::format("{}{} = {}", same.empty() ? "The same in all runs: " : "; ",
                             label_of(measures_[finding.measure].name),
                             shown_value(Cell{{}, outcomes_.spread(finding.highest.front(), finding.measure).mean()}));
@@ -161,7 +171,7 @@ class Comparison {
     if (!summary_.is_table())
       remarks.push_back(fmt::format("Summary is a table for up to {} runs, and a range with filters for more.",
                                     SummarySheet::most_in_table));
-    if (count_ + summary_.first_row() > most_rows)
+    if (count_.all + summary_.first_row() > most_rows)
       remarks.push_back(
           fmt::format("Summary holds the first {} runs; summary.csv has all.", most_rows - summary_.first_row()));
 
@@ -183,7 +193,7 @@ class Comparison {
 
   FilePlace place_;
   ComparisonPlan plan_;
-  size_t count_, failed_ = 0, doubtful_ = 0;
+  RunCounts count_;
   vector<Measure> measures_;
   Workbook book_;
   bool unrelated_;
@@ -197,6 +207,7 @@ class Comparison {
   ParameterSheet parameters_;
   Worksheet& about_;
   Outcomes outcomes_;
+  RunTable runs_;
   SeriesGatherer series_;
   CommonValues common_;
 };

@@ -18,10 +18,9 @@ struct ComparisonWatch {
   function<void(size_t)> doubtful = [](size_t) {};
 };
 
-/// Writes summary.csv, comparison.xlsx and, for repeats, repeats.csv into `place`, complete but with temporary names.
-/// `run` returns run 0 to count - 1 and may be called repeatedly.
-/// A folder without a complete run but with error.txt is a failed run.
-/// Throws MeasureError, and ExportError with a text that names what a folder lacks.
+/// Writes summary.csv, comparison.xlsx, index.html and, for repeats, repeats.csv into `place`, complete but with
+/// temporary names. `run` returns run 0 to count - 1 and may be called repeatedly. A folder without a complete run but
+/// with error.txt is a failed run. Throws MeasureError, and ExportError with a text that names what a folder lacks.
 vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count,
                                                 const function<ComparedRun(size_t)>& run,
                                                 const ComparisonWatch& watch = {});

@@ -10,6 +10,7 @@
 #include "files/folder_names.h"
 #include "files/manifest.h"
 #include "files/stored_file.h"
+#include "scene/output_kinds.h"
 #include "std.h"
 #include "yaml/printable.h"
 #include "yaml/value_json.h"
@@ -22,7 +23,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* request_key = "comparison";
 
 bool is_comparison_file(const string& name) {
-  const array<string_view, 4> names = {summary_name, repeats_name, workbook_name, comparison_film_name};
+  const array<string_view, 5> names = {summary_name, repeats_name, workbook_name, page_name, comparison_film_name};
   return contains(names, name);
 }
 

@@ -70,6 +70,16 @@ string NumberLook::format() const {
   return (form.digits > 4 ? "#,##0" : "0") + decimals;
 }
 
+string NumberLook::text(double number) const {
+  if (!isfinite(number)) return {};
+  const Form form = this->form();
+  string text =
+      form.power ? fmt::format("{:.{}e}", number, form.decimals) : fmt::format("{:.{}f}", number, form.decimals);
+  // What is rounded to zero has no sign.
+  if (text.find_first_of("123456789") == string::npos && text.front() == '-') text.erase(0, 1);
+  return text;
+}
+
 size_t NumberLook::width() const {
   if (!any_) return 0;
   const Form form = this->form();

@@ -12,6 +12,8 @@ class NumberLook {
 
   /// The number format of a spreadsheet: "0.000", "#,##0", "0.0000E+00". "General": there are no numbers.
   string format() const;
+  /// A number in that format, without groups of digits. Empty: it is not finite.
+  string text(double number) const;
   /// The characters that the longest number takes.
   size_t width() const;
 

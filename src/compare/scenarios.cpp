@@ -67,8 +67,9 @@ vector<string> short_names(const vector<string>& paths) {
 
   vector<string> names;
   for (const string& path : paths) {
-    // A coordinate alone says too little.
-    size_t words = tail(path, 1).size() == 1 && !path.starts_with("let.") ? 2 : 1;
+    // A coordinate alone says too little, and so does a default.
+    const string last = tail(path, 1);
+    size_t words = (last.size() == 1 || last == "default") && !path.starts_with("let.") ? 2 : 1;
 
     const auto is_taken = [&] {
       return any_of(paths,

@@ -35,8 +35,11 @@ Descriptor memory_file() {
   return file;
 }
 
-string text_of(int file) {
-  string text(1 << 20, '\0');
+string text_of(int file, size_t most) {
+  struct stat info {};
+  if (fstat(file, &info) != 0) fail("read", {-1, "the output of a program"}, "");
+  string text(min(most, size_t(info.st_size)), '\0');
+
   size_t size = 0;
   while (size < text.size()) {
     const ssize_t n = pread(file, text.data() + size, text.size() - size, off_t(size));
@@ -201,11 +204,11 @@ void Child::kill() {
   exit_code_ = 128 + SIGKILL;
 }
 
-string Child::output() const {
-  return text_of(output_.get());
+string Child::output(size_t most) const {
+  return text_of(output_.get(), most);
 }
 string Child::errors() const {
-  return text_of(errors_.get());
+  return text_of(errors_.get(), most_kept);
 }
 
 }  // namespace carom

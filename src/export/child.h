@@ -44,9 +44,10 @@ class Child {
   /// Ends send() and wait(), which may run on another thread, within 50 ms.
   void abandon() { abandoned_ = true; }
 
-  // The first megabyte of each output stream. Both throw ExportError.
-  string output() const;  // the standard output so far
-  string errors() const;  // the standard error so far
+  static constexpr size_t most_kept = 1 << 20;
+  // The first bytes of each output stream so far. Both throw ExportError.
+  string output(size_t most = most_kept) const;
+  string errors() const;
 
  private:
   bool has_ended();

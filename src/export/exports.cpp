@@ -54,7 +54,7 @@ struct Exports::Impl {
     const vector<MeshCopy> meshes = read_meshes(scene);
     if (scene.output.video) tools = find_film_tools();
     if (renewed != nullptr) kept = kept_files(*renewed);
-    if (draws_plots()) find_gnuplot();
+    if (draws_charts()) find_gnuplot();
 
     folder.emplace(path, durability);
     if (request) find_interrupted(std::move(request));
@@ -124,10 +124,11 @@ struct Exports::Impl {
   bool keeps(const OutputKind& kind) const {
     return any_of(kept, [&](const FileRecord& file) { return output_of(file.name) == &kind; });
   }
-  bool draws_plots() const {
-    return scene.output.plots &&
-           std::none_of(output_kinds().begin(), output_kinds().end(),
-                        [&](const OutputKind& kind) { return kind.series.folder == plot_files.folder && keeps(kind); });
+  bool draws_charts() const {
+    return any_of(output_kinds(), [&](const OutputKind& kind) {
+      const bool has_charts = kind.series.folder == plot_files.folder || kind.has_file(page_name);
+      return has_charts && kind.asked(scene.output) && !keeps(kind);
+    });
   }
 
   /// The writers of both parts, in the order of the kinds of outputs.
@@ -317,6 +318,14 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   }
   if (impl_->frames) append(records, impl_->frames->records());
   for (const Writer* writer : writers) append(records, writer->published());
+
+  for (Writer* writer : writers) {
+    OutputFile* page = writer->page(summary, facts, records);
+    if (page == nullptr) continue;
+    page->complete();
+    records.push_back(page->record());
+    files.push_back(page);
+  }
 
   OutputFile manifest(place, manifest_name);
   manifest.write(manifest_text(impl_->scene, summary, facts, records));

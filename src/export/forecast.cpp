@@ -50,7 +50,7 @@ constexpr double sample_s = 2e-9;
 constexpr double png_pixel_s = 2.5e-9;
 // For a pixel of a film.
 constexpr double film_pixel_s = 5e-9;
-// For the charts of plots/.
+// For the charts of plots/, or of a report.
 constexpr double plots_s = 0.35;
 // For a byte of a table.
 constexpr double table_byte_s = 1e-8;
@@ -101,7 +101,7 @@ Forecast forecast(const Scene& scene) {
   }
 
   // The pictures.
-  double seconds = 0.005 + bytes * table_byte_s + (output.plots ? plots_s : 0);
+  double seconds = 0.005 + bytes * table_byte_s + (output.charts() ? plots_s : 0);
   const PictureStreams plan = plan_pictures(scene);
   for (size_t i = 0; i < plan.streams.size(); ++i) {
     // Where a slowdown is not known yet, the most pictures that it may add.

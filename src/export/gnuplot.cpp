@@ -1,4 +1,5 @@
-// Reads each picture from the standard output of a gnuplot of its own. All of them draw at once.
+// Reads each picture from the standard output of a gnuplot of its own, and all of them draw at once. Pictures of a page
+// are many and small: one gnuplot draws one after the other.
 #include "export/gnuplot.h"
 
 #include <fcntl.h>
@@ -15,7 +16,7 @@ namespace carom {
 namespace {
 
 constexpr auto patience = std::chrono::minutes(1);
-/// Of a picture, as much as Child::output() keeps.
+/// Of a picture.
 constexpr size_t most_bytes = (1 << 20) - 1;
 /// The size of the PNG by that of the SVG.
 constexpr int enlarged = 2;
@@ -37,18 +38,18 @@ class PlotDrawing {
     child_.end_input();
   }
 
-  /// Waits for the picture, its standard output.
-  string picture() {
+  /// Waits for the picture, its standard output, or for several.
+  string picture(size_t most = most_bytes) {
     const auto code = child_.wait(patience);
     if (code != 0)
       throw ExportError("cannot draw the plot: gnuplot " +
                         (code ? fmt::format("failed with code {}: {}", *code, child_.errors())
                               : string("did not end within a minute and was stopped")));
-    string bytes = child_.output();
+    string bytes = child_.output(most + 1);
     // The exit code and the output come first. A program that reads nothing may end before or after the sending.
     if (bytes.empty()) throw ExportError("cannot draw the plot: gnuplot wrote nothing: " + child_.errors());
     if (!sent_) throw ExportError("cannot draw the plot: gnuplot did not read all of it: " + child_.errors());
-    if (bytes.size() > most_bytes) throw ExportError("cannot draw the plot: it takes more than a megabyte");
+    if (bytes.size() > most) throw ExportError("cannot draw the plot: it takes more than a megabyte");
     if (!is_whole_picture(bytes))
       throw ExportError("cannot draw the plot: gnuplot wrote a part of it: " + child_.errors());
     return bytes;
@@ -61,13 +62,13 @@ class PlotDrawing {
 };
 
 /// gnuplot's letters of a size are 4/3 as large in a PNG as in an SVG.
-string terminal_of_png() {
-  return fmt::format("pngcairo size {},{} fontscale {} linewidth {} {}", enlarged * plot_width, enlarged * plot_height,
-                     0.75 * enlarged, enlarged, plot_font);
+string terminal_of_png(const Plot& plot) {
+  return fmt::format("pngcairo size {},{} fontscale {} linewidth {} {}", enlarged * plot.svg_width,
+                     enlarged * plot.svg_height, 0.75 * enlarged, enlarged, plot_font);
 }
 
-string terminal_of_svg() {
-  return fmt::format("svg size {},{} dynamic {} background 'white'", plot_width, plot_height, plot_font);
+string terminal_of_svg(const Plot& plot) {
+  return fmt::format("svg size {},{} dynamic {} background 'white'", plot.svg_width, plot.svg_height, plot_font);
 }
 
 }  // namespace
@@ -84,11 +85,27 @@ vector<PlotPictures> draw_plots(span<const Plot> plots, const string& gnuplot) {
   vector<unique_ptr<PlotDrawing>> drawings;
   for (const Plot& plot : plots) {
     const string script = plot_script(plot);
-    for (const string& terminal : {terminal_of_png(), terminal_of_svg()})
+    for (const string& terminal : {terminal_of_png(plot), terminal_of_svg(plot)})
       drawings.push_back(make_unique<PlotDrawing>(gnuplot, fmt::format("set terminal {}\n{}", terminal, script)));
   }
   vector<PlotPictures> pictures(plots.size());
   for (size_t i = 0; i < plots.size(); ++i) pictures[i] = {drawings[2 * i]->picture(), drawings[2 * i + 1]->picture()};
+  return pictures;
+}
+
+vector<string> draw_svgs(span<const Plot> plots, const string& gnuplot) {
+  if (plots.empty()) return {};
+  string script;
+  for (const Plot& plot : plots)
+    script += fmt::format("reset\nset terminal {}\n{}", terminal_of_svg(plot), plot_script(plot));
+  const string bytes = PlotDrawing(gnuplot, script).picture(plots.size() * most_bytes);
+
+  // One document follows the other.
+  constexpr string_view end = "</svg>";
+  vector<string> pictures;
+  for (size_t from = 0, to = 0; (to = bytes.find(end, from)) != string::npos; from = to + end.size())
+    pictures.push_back(bytes.substr(from, to + end.size() - from));
+  if (pictures.size() != plots.size()) throw ExportError("cannot draw the plot: gnuplot wrote a part of it");
   return pictures;
 }
 

@@ -17,4 +17,7 @@ struct PlotPictures {
 /// The pictures of each plot. Throws ExportError.
 vector<PlotPictures> draw_plots(span<const Plot> plots, const string& gnuplot);
 
+/// The SVG of each plot, drawn by one gnuplot. Throws ExportError.
+vector<string> draw_svgs(span<const Plot> plots, const string& gnuplot);
+
 }  // namespace carom

@@ -15,11 +15,15 @@ struct PlotPoint {
   void keep(auto& archive) { archive(x, y, label, low, high); }
 };
 
+/// The usual size of an SVG, to which letters are proportioned.
+inline constexpr int plot_width = 800, plot_height = 500;
+
 /// The number of colours, each with a mark.
 inline constexpr size_t plot_styles = 8;
 
 enum class PlotForm {
-  marks,  // joined by a line
+  marks,   // joined by a line
+  points,  // marks alone
   line,
   dashes,  // a dashed line, under which another one shows
   band     // from `low` to `high`, filled
@@ -64,11 +68,10 @@ struct Plot {
   bool from_zero = false;
   /// The y axis of a linear plot counts: its ticks are whole numbers.
   bool counts = false;
+  /// The size of the SVG. The PNG has twice as many pixels each way.
+  int svg_width = plot_width, svg_height = plot_height;
   /// Where a value is drawn: not below `floor` on a logarithmic axis.
   double height(double y) const { return scale == PlotScale::logarithmic && y < floor ? floor : y; }
 };
-
-/// The size of the SVG, to which letters are proportioned. The PNG has twice as many pixels each way.
-inline constexpr int plot_width = 800, plot_height = 500;
 
 }  // namespace carom

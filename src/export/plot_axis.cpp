@@ -135,10 +135,8 @@ PlotAxes axes_of(const Plot& plot) {
   for (const PlotSeries& series : plot.series) {
     for (const PlotPoint& point : series.points) {
       x.take(point.x);
-      if (series.form != PlotForm::band) {
-        y.take(plot.height(point.y));
-        continue;
-      }
+      if (series.form != PlotForm::band) y.take(plot.height(point.y));
+      if (series.form != PlotForm::band && plot.scale == PlotScale::logarithmic) continue;
       y.take(point.low);
       y.take(point.high);
     }

@@ -13,8 +13,10 @@ namespace carom {
 
 namespace {
 
-/// The ratio of its upper to its lower end.
-constexpr double shortest_bar = 1.2;
+/// The ratio of its upper to its lower end on a logarithmic axis, and its part of a linear one.
+constexpr double shortest_bar = 1.2, shortest_part = 0.02;
+/// Marks of more points than these are smaller.
+constexpr size_t few_points = 60, few_on_line = 20;
 
 /// Colours that are distinct for every kind of colour vision (Okabe & Ito 2008), and gnuplot's numbers of marks.
 struct PlotStyle {
@@ -32,10 +34,7 @@ constexpr array<PlotStyle, plot_styles> styles = {{{{0xD5, 0x5E, 0x00}, 13},
 
 /// "'#D55E00'"
 string color_of(const PlotSeries& series) {
-  string text = "'#";
-  for (const int part : styles.at(series.style).color)
-    text += fmt::format("{:02X}", int(std::lround(part + (255 - part) * series.tint)));
-  return text + "'";
+  return "'" + plot_color(series) + "'";
 }
 
 /// Text in single quotes, which gnuplot takes literally.
@@ -55,19 +54,25 @@ string title_of(const PlotSeries& series) {
 /// Where the parts of the picture are, in shares of its width and height.
 struct PlotFrame {
   double left, right, legend, y_label;
-  double bottom = 0.11, top = 0.86;
+  double bottom, top;
 };
 
 /// Leaves room for the ticks of the y axis, and at the right for the names of the legend.
 PlotFrame frame_of(const Plot& plot, const PlotAxes& axes) {
-  // In pixels of the SVG. A letter of 13 points is 8 wide on average.
+  // In pixels of the SVG, here and below. A letter of 13 points is 8 wide on average.
   constexpr double letter = 8, label = 20, gap = 26, sample = 62;
   size_t names = 0;
   for (const PlotSeries& series : plot.series) names = max(names, letters_of(series.name));
   for (const PlotLevel& level : plot.levels) names = max(names, letters_of(level.name));
-  constexpr double width = plot_width;
-  const double right = 1 - (sample + letter * double(names)) / width;
-  return {(label + gap + letter * double(axes.y.tick_letters())) / width, right, right + 12 / width, label / width};
+  const bool has_title = !plot.title.empty() || !plot.subtitle.empty();
+  const double width = plot.svg_width, height = plot.svg_height, end = letter * double(axes.x.tick_letters()) / 2;
+  const double right = 1 - (names > 0 ? sample + letter * double(names) : 4 + end) / width;
+  return {(label + gap + letter * double(axes.y.tick_letters())) / width,
+          right,
+          right + 12 / width,
+          label / width,
+          55 / height,
+          1 - (has_title ? 70 : 12) / height};
 }
 
 /// Leaves out a label that would cover another one. Distances are in shares of the picture's width and height.
@@ -113,15 +118,23 @@ class PlotLayers {
       points += fmt::format("{:.17g} {:.17g}\n", point.x, plot_.height(point.y));
     put("series", s, points);
 
-    if (series.form == PlotForm::marks) add_bars(s, series);
-    const string form = series.form == PlotForm::marks
-                            ? fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize 1.3",
-                                          color_of(series), styles.at(series.style).mark)
-                            : fmt::format("lines linetype 1 linecolor {} linewidth 2 dashtype {}", color_of(series),
-                                          series.form == PlotForm::dashes ? "(8,8)" : "solid");
+    const bool is_marked = series.form == PlotForm::marks || series.form == PlotForm::points;
+    if (is_marked) add_bars(s, series);
+    layers_.push_back(fmt::format("$series{} using 1:2 with {} {}", s, style_of(series), title_of(series)));
+    if (is_marked) add_labels(s, series);
+  }
 
-    layers_.push_back(fmt::format("$series{} using 1:2 with {} {}", s, form, title_of(series)));
-    if (series.form == PlotForm::marks) add_labels(s, series);
+  static string style_of(const PlotSeries& series) {
+    const string color = color_of(series);
+    const int mark = styles.at(series.style).mark;
+    if (series.form == PlotForm::points)
+      return fmt::format("points linetype 1 linecolor {} pointtype {} pointsize {}", color, mark,
+                         series.points.size() > few_points ? 0.6 : 0.9);
+    if (series.form == PlotForm::marks)
+      return fmt::format("linespoints linetype 1 linecolor {} linewidth 2 pointtype {} pointsize {}", color, mark,
+                         series.points.size() > few_on_line ? 0.8 : 1.3);
+    return fmt::format("lines linetype 1 linecolor {} linewidth 2 dashtype {}", color,
+                       series.form == PlotForm::dashes ? "(8,8)" : "solid");
   }
 
   void add_band(size_t s, const PlotSeries& series) {
@@ -137,8 +150,7 @@ class PlotLayers {
   void add_bars(size_t s, const PlotSeries& series) {
     string bars;
     for (const PlotPoint& point : series.points)
-      // A bar that the mark would cover is left out.
-      if (point.high > shortest_bar * plot_.height(point.low))
+      if (!is_covered(point))
         bars += fmt::format("{:.17g} {:.17g} {:.17g} {:.17g}\n", point.x, plot_.height(point.y),
                             max(point.low, axes_.y.from), point.high);
     if (bars.empty()) return;
@@ -146,6 +158,12 @@ class PlotLayers {
     layers_.push_back(
         fmt::format("$bars{} using 1:2:3:4 with yerrorbars linetype 1 linecolor {} linewidth 1.2 pointtype 0 notitle",
                     s, color_of(series)));
+  }
+
+  /// Whether the mark covers the bar.
+  bool is_covered(const PlotPoint& point) const {
+    if (plot_.scale == PlotScale::linear) return !(axes_.y.part(point.high) - axes_.y.part(point.low) > shortest_part);
+    return !(point.high > shortest_bar * plot_.height(point.low));
   }
 
   void add_labels(size_t s, const PlotSeries& series) {
@@ -173,6 +191,17 @@ class PlotLayers {
 
 }  // namespace
 
+string plot_color(const PlotSeries& series) {
+  string text = "#";
+  for (const int part : styles.at(series.style).color)
+    text += fmt::format("{:02X}", int(std::lround(part + (255 - part) * series.tint)));
+  return text;
+}
+
+int plot_mark(const PlotSeries& series) {
+  return styles.at(series.style).mark;
+}
+
 string plot_script(const Plot& plot) {
   const PlotAxes axes = axes_of(plot);
   const PlotFrame frame = frame_of(plot, axes);
@@ -188,13 +217,13 @@ string plot_script(const Plot& plot) {
              frame.legend) +
          // The titles.
          fmt::format(
-             "set label 1 {} at screen {:.6g}, screen 0.95 left font ',17' noenhanced\n"
-             "set label 2 {} at screen {:.6g}, screen 0.9 left font ',12' textcolor '#505050' noenhanced\n"
+             "set label 1 {} at screen {:.6g}, screen {:.6g} left font ',17' noenhanced\n"
+             "set label 2 {} at screen {:.6g}, screen {:.6g} left font ',12' textcolor '#505050' noenhanced\n"
              "set label 3 {} at screen {:.6g}, screen {:.6g} center rotate noenhanced\n"
              "set xlabel {} noenhanced offset 0,0.2\n",
-             quoted_text(plot.title), frame.left, quoted_text(plot.subtitle), frame.left,
-             quoted_text(axes.y.label(plot.y_label, plot.y_unit)), frame.y_label, (frame.bottom + frame.top) / 2,
-             quoted_text(axes.x.label(plot.x_label, plot.x_unit))) +
+             quoted_text(plot.title), frame.left, 1 - 25.0 / plot.svg_height, quoted_text(plot.subtitle), frame.left,
+             1 - 50.0 / plot.svg_height, quoted_text(axes.y.label(plot.y_label, plot.y_unit)), frame.y_label,
+             (frame.bottom + frame.top) / 2, quoted_text(axes.x.label(plot.x_label, plot.x_unit))) +
          PlotLayers(plot, axes).text();
 }
 

@@ -9,4 +9,8 @@ namespace carom {
 /// gnuplot's `set terminal` must precede it.
 string plot_script(const Plot& plot);
 
+/// The colour of a series, "#D55E00", and gnuplot's number of its mark, for a legend elsewhere.
+string plot_color(const PlotSeries& series);
+int plot_mark(const PlotSeries& series);
+
 }  // namespace carom

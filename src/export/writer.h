@@ -37,6 +37,8 @@ class Writer {
   virtual vector<LeftOut> left_out() const { return {}; }
   /// Its files with all their bytes, not yet complete. Called after end().
   virtual vector<OutputFile*> files() = 0;
+  /// Its page about the whole run, with all its bytes, not yet complete. Called last, with the files of all others.
+  virtual OutputFile* page(const Summary&, const RunFacts&, span<const FileRecord>) { return nullptr; }
   /// Its files that already have their final names.
   virtual vector<FileRecord> published() const { return {}; }
 

@@ -4,6 +4,7 @@
 #include "export/flights_file.h"
 #include "export/gltf.h"
 #include "export/plots_writer.h"
+#include "export/report_writer.h"
 #include "export/tables.h"
 #include "export/vtk.h"
 #include "export/xyz.h"
@@ -36,6 +37,8 @@ constexpr double path_bytes = 30;
 
 // The files of plots/: 260 kB for ten_pins, 340 kB for bouncing_ball.
 constexpr double plots_bytes = 3e5;
+// index.html: 60 kB for ten_pins.
+constexpr double report_bytes = 6e4;
 
 template <typename Table>
 unique_ptr<Writer> open(FolderWriter& folder, const Scene& scene, const ModelMakers&) {
@@ -83,6 +86,11 @@ constexpr WriterKind all_kinds[] = {
        return make_unique<PlotsWriter>(folder, scene);
      },
      [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks, may_stop},
+    {"report",
+     [](FolderWriter& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
+       return make_unique<ReportWriter>(folder, scene);
+     },
+     [](const Scene&, double) { return report_bytes; }, PlotsWriter::ticks, may_stop},
 };
 
 }  // namespace

@@ -53,7 +53,21 @@ constexpr array<SummaryColumn, 27> columns = {{
      at<&Summary::energy, &EnergyTotals::appeared>},
 }};
 
+// A longer suffix comes before a shorter one that it ends in.
+constexpr array<UnitSuffix, 7> units = {{{"_kg_m_per_s", "kg m/s"},
+                                         {"_m_per_s", "m/s"},
+                                         {"_N_s", "N s"},
+                                         {"_J", "J"},
+                                         {"_N", "N"},
+                                         {"_m", "m"},
+                                         {"_s", "s"}}};
+
 }  // namespace
+
+const UnitSuffix* unit_suffix(string_view column) {
+  const auto found = ranges::find_if(units, [&](const UnitSuffix& u) { return column.ends_with(u.suffix); });
+  return found == units.end() ? nullptr : &*found;
+}
 
 double SummaryColumn::number(const Summary& summary) const {
   const auto given = value(summary);

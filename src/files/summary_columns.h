@@ -18,6 +18,13 @@ struct SummaryColumn {
   double number(const Summary& summary) const;
 };
 
+/// The end of a column's name that says its unit: "_m_per_s", "m/s".
+struct UnitSuffix {
+  string_view suffix, unit;
+};
+/// Null: the column has none.
+const UnitSuffix* unit_suffix(string_view column);
+
 /// In the order of the columns in the file.
 span<const SummaryColumn> summary_columns();
 

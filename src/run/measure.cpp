@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "files/summary_columns.h"
 #include "std.h"
 
 namespace carom {
@@ -21,24 +22,6 @@ constexpr array<QuantityText, 8> quantities = {{{"x_m", "x coordinate of the cen
                                                 {"vz_m_per_s", "velocity along z"},
                                                 {"speed_m_per_s", "speed"},
                                                 {"kinetic_J", "kinetic energy"}}};
-
-struct UnitText {
-  string_view suffix, unit;
-};
-
-// A longer suffix comes before a shorter one that it ends in.
-constexpr array<UnitText, 7> units = {{{"_kg_m_per_s", "kg m/s"},
-                                       {"_m_per_s", "m/s"},
-                                       {"_N_s", "N s"},
-                                       {"_J", "J"},
-                                       {"_N", "N"},
-                                       {"_m", "m"},
-                                       {"_s", "s"}}};
-
-const UnitText* unit_text(string_view column) {
-  const auto found = ranges::find_if(units, [&](const UnitText& u) { return column.ends_with(u.suffix); });
-  return found == units.end() ? nullptr : &*found;
-}
 
 /// The name of a call, "max", and what stands in its parentheses. An empty name: it is no call.
 pair<string_view, string_view> call_of(string_view text) {
@@ -93,7 +76,7 @@ string_view unit_of(string_view column) {
   if (call == "impulse") return "N s";
   if (call == "time_of_max" || call == "time_of_min" || call == "first") return "s";
   if (!call.empty() || column.starts_with('=')) return {};
-  const UnitText* text = unit_text(column);
+  const UnitSuffix* text = unit_suffix(column);
   return text == nullptr ? string_view() : text->unit;
 }
 
@@ -112,7 +95,7 @@ string label_of(string_view column) {
                        of.substr(unit));
   }
 
-  const UnitText* text = unit_text(column);
+  const UnitSuffix* text = unit_suffix(column);
   string label(column.substr(0, column.size() - (text == nullptr ? 0 : text->suffix.size())));
   // Names of bodies stay unchanged.
   const size_t dot = label.rfind('.');

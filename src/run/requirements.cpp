@@ -56,7 +56,7 @@ void Requirements::check(const SceneFile& file, const Scene& scene, const Output
   }
   if (outputs.pictures()) add({}, fault_of([&] { check_font(scene); }));
   if (outputs.video) add({}, fault_of([] { find_film_tools(); }));
-  if (outputs.plots) add({}, fault_of([] { find_gnuplot(); }));
+  if (outputs.charts()) add({}, fault_of([] { find_gnuplot(); }));
   if (!faults.empty()) throw RequirementError(file.error(faults));
 }
 

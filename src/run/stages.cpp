@@ -22,7 +22,7 @@ uint64_t peak_memory() {
 
 /// Whether something that the scene requests is spread over the whole run, which may end early.
 bool needs_end(const Scene& scene) {
-  const auto whole = [](const Output& output) { return output.plots || (output.sheet && !output.sheet->until); };
+  const auto whole = [](const Output& output) { return output.charts() || (output.sheet && !output.sheet->until); };
   return may_stop(scene) && (whole(scene.output) || whole(scene.requested));
 }
 

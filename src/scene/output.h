@@ -87,7 +87,7 @@ struct GltfOutput {
   double fps = 30;
 };
 
-/// The intervals of the tables of which `plots` shows the rows, in s. None: the scene lists no such table.
+/// The intervals of the tables of which charts show the rows, in s. None: the scene lists no such table.
 struct PlotIntervals {
   optional<double> energy, trajectory;
 };
@@ -109,9 +109,11 @@ struct Output {
   /// Only of an engine that moves bodies along parabolas.
   bool flights = false;
   bool plots = false;
+  bool report = false;
   /// Those of tables that --only leaves out.
   PlotIntervals left_out_tables;
-  bool needs_collisions() const { return collisions || plots; }
+  bool charts() const { return plots || report; }
+  bool needs_collisions() const { return collisions || charts(); }
   bool pictures() const { return frames || video || sheet; }
 };
 

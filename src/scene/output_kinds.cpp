@@ -138,13 +138,14 @@ constexpr OutputMember pictures = {[](const Output& output) { return (output.*me
                                    },
                                    nullptr, fills_if_given<Output, member>};
 
-/// The charts show the rows of tables, whether these are written or not.
-constexpr OutputMember charts = {[](const Output& output) { return output.plots; },
+/// Charts show the rows of tables, whether these are written or not.
+template <auto member>
+constexpr OutputMember charts = {[](const Output& output) { return output.*member; },
                                  [](Output& to, const Output& requested) {
-                                   to.plots = true;
+                                   to.*member = true;
                                    to.left_out_tables = plot_intervals(requested);
                                  },
-                                 nullptr, fills<Output, &Output::plots>};
+                                 nullptr, fills<Output, member>};
 
 /// An output without settings, either present or absent.
 template <auto member, const Member& key>
@@ -254,8 +255,14 @@ constexpr OutputKind all_kinds[] = {
     {.name = "plots",
      .doc = "plots/energy.svg and so on: charts of energy, heights, speeds and collisions, by gnuplot.",
      .example = "true",
-     .member = charts,
+     .member = charts<&Output::plots>,
      .series = plot_files},
+    {.name = "report",
+     .doc = "index.html: a page for browsers with the numbers of the run, its charts, its film or a picture, and links "
+            "to all its files. The charts need gnuplot.",
+     .example = "true",
+     .member = charts<&Output::report>,
+     .files = "index.html"},
 };
 
 /// In the order of size_names.

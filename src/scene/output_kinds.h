@@ -25,6 +25,9 @@ struct FileSeries {
 
 inline constexpr FileSeries frame_files{"frames", "frame_", ".png", "picture", "pictures"};
 inline constexpr FileSeries vtk_files{"vtk", "bodies_", ".vtp", "instant", "instants"};
+/// The page of a run with `report`, and that of a comparison.
+inline constexpr const char* page_name = "index.html";
+
 inline constexpr FileSeries plot_files{
     "plots", "",
     "",      "plot",

@@ -300,11 +300,11 @@ class Resolver {
     }
   }
 
-  /// Whether the text of a scene has this flag. `plots` and `regions` are absent unless they are true, as an output
-  /// with settings is.
+  /// Whether the text of a scene has this flag. `plots`, `report` and `regions` are absent unless they are true,
+  /// as an output with settings is.
   bool is_said(const OutputKind& kind) const {
     if (kind.name == "flights") return flights_matter();
-    return (kind.name != "plots" && kind.name != "regions") || kind.asked(scene_.output);
+    return (kind.name != "plots" && kind.name != "report" && kind.name != "regions") || kind.asked(scene_.output);
   }
 
   string output_text(const View& view, const OutputKind& kind) const {

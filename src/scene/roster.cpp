@@ -53,7 +53,7 @@ bool drawings_show_collisions(const Scene& scene) {
   const bool sampled_trails = overlay.trails && !goes_along_parabolas(scene.world, scene.simulate);
   return frames_motion(scene) || overlay.flash || sampled_trails || slows_down(scene) || sounds(scene) ||
          colors_by_collisions(scene) || has_name(overlay.caption, "collisions") ||
-         ((scene.output.plots || scene.requested.plots) && may_stop(scene));
+         ((scene.output.charts() || scene.requested.charts()) && may_stop(scene));
 }
 
 }  // namespace carom

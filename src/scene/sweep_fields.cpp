@@ -24,7 +24,7 @@ constexpr Field sweep_fields[] = {
     row("seed", "The seed of what random and latin draw. It is not that of the scene.", "1", {.type = Type::whole, .range = {.min = 0}, .initial = "0"}),
     row("skip_invalid", "Leaves out the runs whose scene is invalid, instead of refusing the sweep.", "true", {.type = Type::flag, .initial = "false"}),
     row("repeat", "Runs each combination several times, with other seeds.", "{seeds: 10}", {.type = Type::part, .of = "repeat"}),
-    row("only", "The outputs to write. Default: those of the base.", "[collisions, energy]", {.type = Type::names, .of = "trajectory|collisions|energy|contacts|regions|frames|video|sheet|vtk|xyz|gltf|flights|plots"}),
+    row("only", "The outputs to write. Default: those of the base.", "[collisions, energy]", {.type = Type::names, .of = "trajectory|collisions|energy|contacts|regions|frames|video|sheet|vtk|xyz|gltf|flights|plots|report"}),
     row("compare", "What the comparison shows.", "{measures: [energy_lost_J]}", {.type = Type::part, .of = "compare"}),
 };
 

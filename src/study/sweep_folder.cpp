@@ -22,6 +22,7 @@
 #include "files/series_folders.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
+#include "scene/output_kinds.h"
 #include "scene/path_field.h"
 #include "scene/scene.h"
 #include "scene/scene_values.h"
@@ -143,7 +144,7 @@ SweepFolder::SweepFolder(const string& path, Use use, const Sweep& sweep, const 
   if (use == Use::exclusive) {
     if (!lock_folder(place_, LockKind::alone)) fail("write", place_, "", busy);
     finish_publication(place_, Durability::synced);
-    for (const char* name : {summary_name, repeats_name, workbook_name}) refuse_folder(place_, name);
+    for (const char* name : {summary_name, repeats_name, workbook_name, page_name}) refuse_folder(place_, name);
     begin(sweep, base_text, skipped);
     return;
   }

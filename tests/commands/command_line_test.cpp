@@ -91,13 +91,13 @@ TEST(CommandLine, ValuesAreCheckedBeforeAnySceneIsRead) {
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "frmes"}),
             "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, "
             "xyz, gltf, "
-            "flights, plots, not `frmes`; "
+            "flights, plots, report, not `frmes`; "
             "did you mean `frames`?" +
                 end);
   EXPECT_EQ(complaint({"run", "a.yaml", "--only", "energy,"}),
             "carom run: --only takes trajectory, collisions, energy, contacts, regions, frames, video, sheet, vtk, "
             "xyz, gltf, "
-            "flights, plots, not ``" +
+            "flights, plots, report, not ``" +
                 end);
 
   EXPECT_EQ(complaint({"run", "a.yaml", "--color", "sometimes"}),

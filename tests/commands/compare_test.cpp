@@ -36,10 +36,10 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
             "  varied      balls.red.restitution\n"
             "  measures    balls.red.speed_m_per_s\n"
             "  found       balls.red.speed_m_per_s from 1.4 (a) to 1.9 (c), mostly by restitution (+1.00)\n"
-            "  wrote       output/comparison: comparison.xlsx, manifest.json and summary.csv\n");
+            "  wrote       output/comparison: comparison.xlsx, index.html, manifest.json and summary.csv\n");
 
   const auto files = here.files("output/comparison");
-  ASSERT_EQ(files.size(), 3u);
+  ASSERT_EQ(files.size(), 4u);
 
   const string& table = files.at("summary.csv");
   EXPECT_NE(
@@ -52,7 +52,7 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
   EXPECT_TRUE(files.at("comparison.xlsx").starts_with("PK"));
 
   const Json manifest = Json::parse(files.at("manifest.json"));
-  EXPECT_EQ(manifest["files"].size(), 2u);
+  EXPECT_EQ(manifest["files"].size(), 3u);
 }
 
 TEST(CompareCommand, ListsNumbersOfLetAndNotWhatFollowsFromThem) {
@@ -149,7 +149,7 @@ TEST(CompareCommand, OfASweepGivesTheSweepsTable) {
   ASSERT_EQ(sweep.code, 0) << sweep.err;
   const Finished run = here.carom({"compare", "swept"});
   ASSERT_EQ(run.code, 0) << run.err;
-  for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx"})
+  for (const char* file : {"summary.csv", "repeats.csv", "comparison.xlsx", "index.html"})
     EXPECT_EQ(here.read(string("output/comparison/") + file), here.read(string("swept/") + file)) << file;
 }
 
@@ -222,7 +222,7 @@ TEST(CompareCommand, JsonHasTheSameContent) {
   EXPECT_EQ(done["status"], "done");
   EXPECT_EQ(done["runs"], 2);
   EXPECT_EQ(done["parameters"], Json({"balls.red.restitution"}));
-  EXPECT_EQ(done["files"], Json({"comparison.xlsx", "manifest.json", "summary.csv"}));
+  EXPECT_EQ(done["files"], Json({"comparison.xlsx", "index.html", "manifest.json", "summary.csv"}));
   EXPECT_EQ(Json::parse(here.carom({"compare", "runs/a", "runs/b", "--json"}).out)["status"], "up to date");
 }
 

@@ -86,8 +86,8 @@ TEST(Sweep, WritesARunAFolderAndWhatComparesThem) {
   EXPECT_EQ(sweep.err, "");
   EXPECT_TRUE(sweep.out.starts_with("offsets: Offsets\n  runs        6 runs; done\n")) << sweep.out;
 
-  for (const string name : {"summary.csv", "comparison.xlsx", "manifest.json", "runs/r0001/trajectory.csv",
-                            "runs/r0006/manifest.json", "runs/r0006/scene.yaml"})
+  for (const string name : {"summary.csv", "comparison.xlsx", "index.html", "manifest.json",
+                            "runs/r0001/trajectory.csv", "runs/r0006/manifest.json", "runs/r0006/scene.yaml"})
     EXPECT_TRUE(here.has("output/offsets/" + name)) << name;
   const vector<string> rows = lines_of(here.read("output/offsets/summary.csv"));
   ASSERT_EQ(rows.size(), 7u);

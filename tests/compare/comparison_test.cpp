@@ -98,7 +98,7 @@ TEST_F(ComparisonOfSix, ChartsHaveTitlesAxesAndALineForEachValue) {
   EXPECT_EQ(charts[1]["y"], "balls.red speed (m/s)");
   EXPECT_EQ(charts[3]["title"], "kinetic energy (J) over time");
   ASSERT_EQ(charts[3]["series"].size(), 6u);
-  EXPECT_EQ(charts[3]["series"][5]["name"], "default = 1, mass = 20 kg");
+  EXPECT_EQ(charts[3]["series"][5]["name"], "restitution.default = 1, mass = 20 kg");
   // None covers another.
   for (size_t a = 0; a < charts.size(); ++a)
     for (size_t b = 0; b < a; ++b)
@@ -133,8 +133,8 @@ TEST_F(ComparisonOfSix, FirstSheetHasTheHighestAndTheLowestRunAndTheCorrelations
       if (!cell.is_null()) cells.push_back(cell);
     return cells;
   };
-  EXPECT_EQ(filled(rows[5]), Json({"measure", "highest", "run", "default", "mass", "lowest", "run", "default", "mass",
-                                   "ρ default", "ρ mass"}));
+  EXPECT_EQ(filled(rows[5]), Json({"measure", "highest", "run", "restitution.default", "mass", "lowest", "run",
+                                   "restitution.default", "mass", "ρ restitution.default", "ρ mass"}));
 
   const Json lost = filled(rows[6]);
   EXPECT_EQ(lost[0], "energy lost (J)");
@@ -151,7 +151,7 @@ TEST_F(ComparisonOfSix, FirstSheetHasTheHighestAndTheLowestRunAndTheCorrelations
 TEST_F(ComparisonOfSix, FirstSheetHasAHeatMapWithFormulas) {
   const Json& compare = sheet("Compare");
   size_t head = 0;
-  while (compare["rows"][head][0] != "default \\ mass") ++head;
+  while (compare["rows"][head][0] != "restitution.default \\ mass") ++head;
   EXPECT_EQ(compare["rows"][head - 1][0], "energy lost (J): down restitution.default, across balls.red.mass");
   EXPECT_EQ(compare["rows"][head][2], 10);
   EXPECT_EQ(compare["rows"][head + 1][0], 0.5);
@@ -305,7 +305,7 @@ TEST_F(ComparisonOfSix, SeriesCollisionsAndParametersAreTheRuns) {
   const Json& series = sheet("Series")["rows"];
   EXPECT_EQ(series.size(), 12u);  // eleven instants
   EXPECT_EQ(series[0][0], "time (s)");
-  EXPECT_EQ(series[0][1], "kinetic energy (J): default = 0.5, mass = 10 kg");
+  EXPECT_EQ(series[0][1], "kinetic energy (J): restitution.default = 0.5, mass = 10 kg");
   EXPECT_EQ(series[1][1], 40);
   EXPECT_EQ(series[11][0], 1);
 

@@ -210,7 +210,7 @@ TEST(Resume, OfAPileWithAllOutputsHasTheSameFiles) {
       "frames: {fps: 4, size: [32, 18]}, sheet: {columns: 2, rows: 1, size: [96, 48]}}\n";
   const RunPlace place;
   for (const string& more : {string("simulate: {duration: 1}\noutput: {"),
-                             "simulate: {duration: 2}\n" + given_camera + "output: {plots: true, ",
+                             "simulate: {duration: 2}\n" + given_camera + "output: {plots: true, report: true, ",
                              string("simulate: {duration: 9, stop: [{collisions: 150}]}\noutput: {")})
     expect_to_go_on(place.scene(pile + more + outputs), random);
 }

@@ -271,6 +271,7 @@ output:
   gltf: {fps: 2}
   flights: true
   plots: true
+  report: true
 )",
     R"(
 scene: 1
