@@ -111,6 +111,35 @@ TEST(Means, OfTheBooksEngineAreThoseOfItsFrames) {
   EXPECT_NEAR(all[2], 3 * 0.5, 1e-13);
 }
 
+TEST(Windows, ThatBeginOrEndAtAnImpactHaveItsInstant) {
+  // It moves at 3 m/s along x and falls from 5 m: it lands at 1 s to the bit. Doubles beside that have the same values.
+  const string thrown =
+      "scene: 1\ngravity: [0, -10, 0]\n"
+      "balls: {b: {mass: 2, radius: 0.5, position: [0, 5.5, 0], velocity: [3, 0, 0], restitution: 0.5}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], restitution: 0.5}}\nsimulate: {duration: 1.5}";
+  ASSERT_EQ(value_of("first(b, floor)", thrown), 1);
+  for (const double t : {std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0)}) {
+    const auto all = measured(
+        thrown, {fmt::format("max(balls.b.x_m, until: {})", t), fmt::format("min(balls.b.x_m, from: {})", t),
+                 fmt::format("min(balls.b.y_m, until: {})", t), fmt::format("time_of_max(balls.b.x_m, until: {})", t),
+                 fmt::format("max(balls.b.x_m, from: {})", t), fmt::format("max(balls.b.y_m, until: {})", t)});
+    EXPECT_NEAR(all[0], 3, 1e-14) << t;
+    EXPECT_NEAR(all[1], 3, 1e-14) << t;
+    EXPECT_NEAR(all[2], 0.5, 1e-14) << t;
+    EXPECT_NEAR(all[3], 1, 1e-15) << t;
+    EXPECT_NEAR(all[4], 4.5, 1e-14) << t;
+    EXPECT_NEAR(all[5], 5.5, 1e-14) << t;
+  }
+
+  // At the instant itself both sides count: it arrives at 10 m/s and leaves at 5 m/s.
+  const auto both = measured(thrown, {"min(balls.b.vy_m_per_s, until: 1)", "max(balls.b.vy_m_per_s, until: 1)",
+                                      "min(balls.b.vy_m_per_s, from: 1)", "max(balls.b.vy_m_per_s, from: 1)"});
+  EXPECT_NEAR(both[0], -10, 1e-14);
+  EXPECT_NEAR(both[1], 5, 1e-14);
+  EXPECT_NEAR(both[2], -10, 1e-14);
+  EXPECT_NEAR(both[3], 5, 1e-14);
+}
+
 TEST(Windows, OfExtremesHaveTheirEnds) {
   const auto all =
       measured(bouncing(4),

@@ -267,7 +267,8 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Ext
     // The part of the flight that is in the window. Of an instant between two flights each has its own side.
     const Instant first = max(since, Instant{watched.window.from, 0}),
                   last = min(until, Instant{watched.window.until, 0});
-    if (last < first || (last == first && since < until)) continue;
+    const bool ends_here = last == since && since < until;
+    if (last < first || (last == first && since < until && !ends_here)) continue;
     const double enters = first - f.start, leaves = last - f.start;
     if (watched.mean) {
       found[k].integral.add(integral_of(part, quantity, mass, enters, leaves));
@@ -275,7 +276,7 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Ext
       continue;
     }
     if (since < first) offer(k, i, part.point(enters), first.hi, seen, found[k]);
-    if (last < until) offer(k, i, part.point(leaves), last.hi, seen, found[k]);
+    if (last < until && !ends_here) offer(k, i, part.point(leaves), last.hi, seen, found[k]);
 
     // Whether the flight continues the one before.
     const double here = quantity_of(quantity, start.x, start.v, mass);
@@ -285,11 +286,14 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Ext
     const bool goes_on = ((rises > 0 && rose > 0) || (rises < 0 && rose < 0)) &&
                          std::abs(here - quantity_of(quantity, before.end.x, before.end.v, mass)) <=
                              rounding_of(quantity, start, mass, seen);
-    if (!goes_on) {
+    // A window that begins or ends between two flights has both sides. One that ends there has nothing of the second
+    // flight beyond its start.
+    if (!goes_on || ends_here || since == Instant{watched.window.from, 0}) {
       if (known) offer(k, i, before.end, before.until.hi, before, found[k]);
       if (!(since < first)) offer(k, i, start, since.hi, seen, found[k]);
     }
 
+    if (ends_here) continue;
     turns_of(part, quantity, enters, leaves,
              [&](double t) { offer(k, i, part.point(t), (f.start + t).hi, seen, found[k]); });
   }
