@@ -337,7 +337,7 @@ TEST(CompareCommand, FilmsThatFrameTheirMotionsHaveOneCamera) {
   ASSERT_EQ(here.carom({"run", "ball.yaml", "-q", "-o", "runs/far", "--set", "balls.red.velocity.x=4"}).code, 0);
   const Finished run = here.carom({"compare", "runs/near", "runs/far", "--video"});
   ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(here.files("output/comparison").size(), 4u) << "nothing but the comparison is left";
+  EXPECT_EQ(here.files("output/comparison").size(), 5u) << "nothing but the comparison is left";
 
   // 1 s at 4 pictures a second, without the title cards.
   EXPECT_EQ(here.shell("ffprobe -v error -count_packets -show_entries stream=width,nb_read_packets -of csv=p=0 "
