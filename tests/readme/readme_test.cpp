@@ -181,17 +181,17 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
     }
   }
 
-  EXPECT_EQ(run, 32);
+  EXPECT_EQ(run, 33);
   EXPECT_EQ(compared, 2);
 
   // What the commands have left.
   for (const char* file :
        {"two_bowling_balls/animation.mp4", "two_bowling_balls/frames/frame_00084.png",
         "two_bowling_balls/still_1.25s.png", "half/collisions.csv", "two_bowling_balls.sweep/summary.csv",
-        "two_bowling_balls.sweep/comparison.xlsx", "two_bowling_balls.sweep/runs/r0006/energy.csv",
-        "billiard_break/animation.mp4", "pi_by_collisions/energy.csv", "raindrops.bench/bench.svg", "gas_2/energy.csv",
-        "gas/plots/speeds.png", "charts/plots/collisions.svg", "comparison/comparison.xlsx",
-        "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
+        "two_bowling_balls.sweep/comparison.xlsx", "two_bowling_balls.sweep/index.html", "pins/index.html",
+        "two_bowling_balls.sweep/runs/r0006/energy.csv", "billiard_break/animation.mp4", "pi_by_collisions/energy.csv",
+        "raindrops.bench/bench.svg", "gas_2/energy.csv", "gas/plots/speeds.png", "charts/plots/collisions.svg",
+        "comparison/comparison.xlsx", "rest/bouncing_ball/trajectory.csv", "first.yaml", "scene.schema.json"}) {
     EXPECT_TRUE(fs::exists(clone / (string("output/") + file))) << file;
   }
 
