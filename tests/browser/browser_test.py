@@ -83,7 +83,7 @@ def check_filters(browser):
 
     assert shown("mass (kg)", "> 10") == 6
     assert browser.value("document.getElementById('shown').textContent") == "6 of 12 runs"
-    assert shown("restitution.default", "0.6..1") == 4
+    assert shown("restitution.default", "0.75..1") == 4
     assert shown("mass (kg)", "") == 8
     assert shown("mass (kg)", "many") == 8
     assert browser.value("document.querySelectorAll('[aria-invalid]').length") == 1
@@ -113,6 +113,7 @@ def check_links(browser):
     """A link of the ranking leads to its row, and every link into the folder to something."""
     browser.value("document.querySelector('.rank a').click()")
     browser.wait_for("location.hash.length > 1 && document.querySelector('#runs tr:target') !== null")
+    assert browser.value("[...document.querySelectorAll('a[href^=\"#\"]')].every(one => document.querySelector(one.hash))")
     addresses = browser.value("[...document.querySelectorAll('a[href], video[src], img[src]')].map(one => one.href || one.src)")
     for address in addresses:
         path = pathlib.Path(address.split("#")[0].removeprefix("file://"))
