@@ -181,7 +181,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
     }
   }
 
-  EXPECT_EQ(run, 33);
+  EXPECT_EQ(run, 34);
   EXPECT_EQ(compared, 2);
 
   // What the commands have left.
