@@ -15,10 +15,15 @@
 namespace carom {
 namespace {
 
+/// Of a correlation: "-0.53".
+string hundredths(double value) {
+  return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0.0 : value);
+}
+
 /// "rises with speed 0.83"
 string trend_of(double correlation, const string& name) {
-  return fmt::format("{} with <b class=\"p\">{}</b><small>{:.2f}</small>", correlation > 0 ? "rises" : "falls",
-                     html_text(name), correlation);
+  return fmt::format("{} with <b class=\"p\">{}</b><small>{}</small>", correlation > 0 ? "rises" : "falls",
+                     html_text(name), hundredths(correlation));
 }
 
 class ComparisonPage {
@@ -263,9 +268,9 @@ class ComparisonPage {
     for (const MeasureFinding* finding : shown_) {
       text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(label(finding->measure)));
       for (const double correlation : finding->correlations)
-        text += isfinite(correlation) ? fmt::format("<td style=\"background:rgba({},{:.2f})\">{:.2f}</td>",
+        text += isfinite(correlation) ? fmt::format("<td style=\"background:rgba({},{:.2f})\">{}</td>",
                                                     correlation > 0 ? "230,120,0" : "0,114,178",
-                                                    0.75 * std::abs(correlation), correlation)
+                                                    0.75 * std::abs(correlation), hundredths(correlation))
                                       : "<td>–</td>";
       text += "</tr>\n";
     }

@@ -15,8 +15,8 @@ constexpr size_t line_styles[] = {3, 0, 2, 4, 1, 5, 6, 7};
 /// Points of a cloud, of which more would cover each other.
 constexpr size_t most_in_cloud = 500;
 constexpr size_t heat_steps = 48;
-/// Of a map with more columns the numbers have no room.
-constexpr size_t most_numbered = 12;
+/// Of a map with more columns the numbers have no room, or all heads.
+constexpr size_t most_numbered = 12, most_heads = 25;
 constexpr size_t most_bar_rows = 40;
 
 /// "speed" and "m/s" of "speed (m/s)".
@@ -160,8 +160,10 @@ string heat_table(const HeatMap& map, const ComparisonPlan& plan, const Measure&
       "<table{}><tr><th></th>",
       html_text(label_of(measure.name)), html_text(label_of({names[0], rows.unit})),
       html_text(label_of({names[1], columns.unit})), has_numbers ? "" : " class=\"fine\"");
-  for (const size_t column : map.columns)
-    text += fmt::format("<th><span>{}</span></th>", html_text(shown_value(across.values[column])));
+  const size_t every = 1 + (max<size_t>(map.columns.size(), 1) - 1) / most_heads;
+  for (size_t k = 0; k < map.columns.size(); ++k)
+    text += fmt::format("<th><span>{}</span></th>",
+                        k % every == 0 ? html_text(shown_value(across.values[map.columns[k]])) : "");
   text += "</tr>\n";
 
   for (size_t i = 0; i < map.rows.size(); ++i) {

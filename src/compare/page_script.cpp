@@ -23,7 +23,9 @@ const string_view comparison_style = R"(.answers td{vertical-align:top;text-alig
 .heat td{padding:0;border:0;text-align:center}
 .heat td a{display:block;min-height:22px;line-height:22px;font-size:12px;color:inherit}
 .heat .fine td a{min-height:16px;line-height:16px}
-.heat .fine span{writing-mode:vertical-rl;transform:rotate(180deg);white-space:nowrap}
+.heat .wide{padding-right:6px}
+.heat .fine th:not(:first-child){padding:0;vertical-align:bottom}
+.heat .fine span{writing-mode:vertical-rl;transform:rotate(180deg);white-space:nowrap;line-height:1}
 .scale{font-size:13px;margin:4px 0 0}
 .scale span{display:inline-flex;vertical-align:-2px;margin:0 4px}
 .scale i{width:6px;height:13px}
