@@ -125,7 +125,7 @@ string bar_table(const ChartData& chart) {
 }
 
 string heat_class(double part) {
-  return fmt::format("h{}", int(clamp(part, 0.0, 1.0) * (heat_steps - 1) + 0.5));
+  return fmt::format("h{}", std::lround(clamp(part, 0.0, 1.0) * (heat_steps - 1)));
 }
 
 string heat_style() {

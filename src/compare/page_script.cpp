@@ -9,7 +9,7 @@ const string_view comparison_style = R"(.answers td{vertical-align:top;text-alig
 .answers b{font-size:1.13em}
 .answers b.p{font-size:inherit}
 .answers{min-width:100%}
-.answers td small{display:block}
+.answers td small{display:block;overflow-wrap:anywhere}
 .rank td:first-child{color:#5b6675}
 .rank td{white-space:nowrap}
 .row{display:flex;flex-wrap:wrap;gap:14px 28px;align-items:flex-start}

@@ -45,7 +45,7 @@ string picture_in(const RunRecord& run, const vector<string>& names) {
 }  // namespace
 
 RunTable::RunTable(const FilePlace& place, const ComparisonPlan& plan, const vector<Measure>& measures, bool unrelated)
-    : page_folder_(canonical(place.path)),
+    : page_path_(place.path),
       has_parameters_(!unrelated),
       status_(size_t(find_summary_column("status") - summary_columns().data())) {
   vector<string> paths;
@@ -83,16 +83,20 @@ void RunTable::add(const RunRecord& run) {
   rows_.push_back(std::move(row));
 }
 
+/// Of a sweep, its own runs need no look at the disk.
+string RunTable::path_from_page(const string& folder) const {
+  const string inside = page_path_ + "/";
+  if (folder.starts_with(inside)) return folder.substr(inside.size());
+  return std::filesystem::path(canonical(folder)).lexically_relative(canonical(page_path_)).string();
+}
+
 RunTable::Media RunTable::media_of(const RunRecord& run) const {
   Media media;
   if (!run.folder) return media;
-  const std::filesystem::path folder = canonical(run.run.folder);
-  media.folder = folder.lexically_relative(page_folder_).string() + "/";
+  const string folder = path_from_page(run.run.folder) + "/";
   const vector<string> names = folder_names(run.folder.get());
-  if (contains(names, string_view(page_name))) media.folder += page_name;
-  const auto path = [&](const string& name) {
-    return name.empty() ? name : (folder.lexically_relative(page_folder_) / name).string();
-  };
+  const auto path = [&](const string& name) { return name.empty() ? name : folder + name; };
+  media.folder = contains(names, string_view(page_name)) ? folder + page_name : folder;
   media.film = path(first_of(names, is_film));
   media.picture = path(picture_in(run, names));
   return media;

@@ -44,13 +44,14 @@ class RunTable {
     vector<Cell> cells;
     Media media;
   };
+  string path_from_page(const string& folder) const;
   Media media_of(const RunRecord& run) const;
   string cell_html(const Column& column, const Cell& cell) const;
   static string media_html(const Media& media);
   string row_html(size_t number) const;
   vector<size_t> shown() const;
 
-  string page_folder_;  // canonical
+  string page_path_;  // of its folder
   bool has_parameters_;
   size_t status_;
   vector<Column> columns_;  // parameters, then measures
