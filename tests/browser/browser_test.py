@@ -38,7 +38,7 @@ TOO_WIDE = "document.documentElement.scrollWidth - innerWidth"
 
 
 def carom(folder, *arguments):
-    subprocess.run([sys.argv[1], *arguments, "-q"], cwd=folder, check=True)
+    subprocess.run([pathlib.Path(sys.argv[1]).resolve(), *arguments, "-q"], cwd=folder, check=True)
 
 
 def check_quiet(browser, page):
