@@ -29,7 +29,7 @@ string trend_of(double correlation, const string& name) {
 class ComparisonPage {
  public:
   static constexpr size_t most_measures = 8, most_figures = 24, most_heat_values = 40;
-  static constexpr size_t most_differences = 8, most_shared = 1000;
+  static constexpr size_t most_differences = 8, most_varied = 10, most_shared = 1000;
   static constexpr size_t most_named = 4;  // parameters of a run in a line
 
   explicit ComparisonPage(const PageContent& content) : c_(content), looks_(content.measures.size()) {
@@ -132,26 +132,34 @@ class ComparisonPage {
   string question() const {
     if (!c_.differences.rows.empty()) return differences();
     if (c_.outcomes.varied().empty()) return "<h2>What was varied</h2>\n<p>Nothing: the scenes are the same.</p>\n";
-    string text =
-        "<h2>What was varied</h2>\n<div class=\"wide\"><table><tr><th>parameter</th><th class=\"n\">values</th>"
-        "<th class=\"n\">from</th><th class=\"n\">to</th></tr>\n";
+    constexpr const char* head =
+        "<div class=\"wide\"><table><tr><th>parameter</th><th class=\"n\">values</th><th class=\"n\">from</th>"
+        "<th class=\"n\">to</th></tr>\n";
+    constexpr const char* end = "</table></div>\n";
 
-    for (const Varied& varied : c_.outcomes.varied()) {
-      const Parameter& parameter = c_.plan.parameters[varied.parameter];
-      text += fmt::format("<tr><td class=\"t\">{}</td>", html_text(parameter.path));
-      if (varied.values.empty()) {
-        text += fmt::format("<td>{}</td><td class=\"t\" colspan=\"2\">repeats of each</td></tr>\n",
-                            c_.outcomes.most_runs());
-        continue;
-      }
+    string text = fmt::format("<h2>What was varied</h2>\n{}", head);
+    const span<const Varied> all = c_.outcomes.varied();
+    for (const Varied& varied : all.first(min(all.size(), most_varied))) text += varied_row(varied);
+    text += end;
+    if (all.size() <= most_varied) return text;
 
-      text += fmt::format("<td>{}</td>", varied.values.size());
-      for (const Cell* value : {&varied.values.front(), &varied.values.back()})
-        text += fmt::format("<td>{}{}{}</td>", html_text(shown_value(*value)), parameter.unit.empty() ? "" : " ",
-                            html_text(parameter.unit));
-      text += "</tr>\n";
-    }
-    return text + "</table></div>\n";
+    text += fmt::format("<details><summary>and {} more</summary>{}", all.size() - most_varied, head);
+    for (const Varied& varied : all.subspan(most_varied)) text += varied_row(varied);
+    return text + end + "</details>\n";
+  }
+
+  string varied_row(const Varied& varied) const {
+    const Parameter& parameter = c_.plan.parameters[varied.parameter];
+    string text = fmt::format("<tr><td class=\"t\">{}</td>", html_text(parameter.path));
+    if (varied.values.empty())
+      return text + fmt::format("<td>{}</td><td class=\"t\" colspan=\"2\">repeats of each</td></tr>\n",
+                                c_.outcomes.most_runs());
+
+    text += fmt::format("<td>{}</td>", varied.values.size());
+    for (const Cell* value : {&varied.values.front(), &varied.values.back()})
+      text += fmt::format("<td>{}{}{}</td>", html_text(shown_value(*value)), parameter.unit.empty() ? "" : " ",
+                          html_text(parameter.unit));
+    return text + "</tr>\n";
   }
 
   /// Of unrelated runs.
