@@ -1,4 +1,5 @@
 // The page of a comparison: well-formed, with its links, and whatever texts the runs have.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <regex>
