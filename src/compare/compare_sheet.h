@@ -4,8 +4,8 @@
 #include "compare/charts.h"
 #include "compare/parameter_sheet.h"
 #include "compare/series.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

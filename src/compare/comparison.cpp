@@ -16,10 +16,10 @@
 #include "compare/scenarios.h"
 #include "compare/series.h"
 #include "compare/summary_sheet.h"
-#include "compare/workbook.h"
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "std.h"
+#include "workbook/workbook.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 

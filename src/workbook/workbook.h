@@ -5,10 +5,10 @@
 
 #include <list>
 
-#include "compare/number_look.h"
-#include "compare/workbook_files.h"
 #include "files/output_file.h"
 #include "std.h"
+#include "workbook/number_look.h"
+#include "workbook/workbook_files.h"
 
 namespace carom {
 

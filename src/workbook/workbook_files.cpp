@@ -1,7 +1,7 @@
 // lxw_tmpfile is the only function of the library that makes temporary files.
 // By the rules of shared libraries, a function of that name in the program replaces it.
 // check_archive() detects the case in which it does not.
-#include "compare/workbook_files.h"
+#include "workbook/workbook_files.h"
 
 #include <fmt/format.h>
 #include <minizip/unzip.h>

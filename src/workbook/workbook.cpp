@@ -1,6 +1,6 @@
 // Writes cells with libxlsxwriter and checks every error.
 // The date of creation is fixed, and the archive is compared with the parts written to it before it is copied.
-#include "compare/workbook.h"
+#include "workbook/workbook.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
