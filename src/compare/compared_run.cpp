@@ -29,13 +29,13 @@ vector<string> read_summary(const RunRecord& run) {
 }  // namespace
 
 StoredTable open_table(const RunRecord& run, const char* name) {
-  Descriptor file = open_stored(run.folder.get(), name);
+  Descriptor file = open_stored_table(run.folder.get(), name);
   if (!file) refuse_run(run.run.folder, fmt::format("has no {}", name));
   return StoredTable(std::move(file));
 }
 
 bool has_file(const RunRecord& run, const char* name) {
-  return stored_size(run.folder.get(), name).has_value();
+  return stored_table(run.folder.get(), name).has_value();
 }
 
 bool has_measures(const string& path, const vector<Measure>& measures) {

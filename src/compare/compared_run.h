@@ -27,7 +27,7 @@ bool has_measures(const string& folder, const vector<Measure>& measures);
 
 /// A table of the run. Throws ExportError if it is absent.
 StoredTable open_table(const RunRecord& run, const char* name);
-/// Whether the file exists.
+/// Whether the file exists, a table perhaps compressed.
 bool has_file(const RunRecord& run, const char* name);
 
 }  // namespace carom

@@ -274,6 +274,13 @@ uint64_t Exports::planned_frames() const {
   return planned;
 }
 
+vector<TableSize> Exports::table_sizes() const {
+  vector<TableSize> sizes;
+  for (const Writer* writer : impl_->writers())
+    if (const optional<TableSize> size = writer->size()) sizes.push_back(*size);
+  return sizes;
+}
+
 vector<LeftOut> Exports::left_out() const {
   vector<LeftOut> left_out;
   for (const Writer* writer : impl_->writers())
@@ -289,7 +296,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   vector<OutputFile*> files;
 
   // Write all bytes of all files, including the manifest, under temporary names.
-  OutputFile summary_file(place, "summary.csv");
+  OutputFile summary_file(place, "summary.csv", CsvDialect(impl_->scene.output.tables));
   write_summary(summary_file, summary);
   files.push_back(&summary_file);
 

@@ -1,6 +1,7 @@
 #pragma once
 // Predicts what a run of a scene will write.
 
+#include "files/summary.h"
 #include "std.h"
 
 namespace carom {
@@ -12,6 +13,8 @@ struct Scene;
 struct Forecast {
   uint64_t rows = 0, frames = 0, bytes = 0;
   double seconds = 0;
+  /// Those tables whose rows do not depend on what happens, or not beyond a bound.
+  vector<TableSize> tables{};
 };
 Forecast forecast(const Scene& scene);
 

@@ -298,6 +298,7 @@ class Resolver {
       if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, output_text(view, kind));
       if (kind.keys.empty() && is_said(kind)) entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
     }
+    if (scene_.output.tables != TablesOutput{}) entry("tables", flow(view.part("tables")));
   }
 
   /// Whether the text of a scene has this flag. `plots` and `regions` are absent unless they are true, as an output
