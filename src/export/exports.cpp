@@ -13,12 +13,14 @@
 #include "export/png.h"
 #include "export/sheet.h"
 #include "export/tables.h"
+#include "export/tables_book.h"
 #include "export/writer_kinds.h"
 #include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/processors.h"
 #include "files/series_folders.h"
+#include "files/stored_file.h"
 #include "scene/film_layout.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -128,6 +130,17 @@ struct Exports::Impl {
     return scene.output.plots &&
            std::none_of(output_kinds().begin(), output_kinds().end(),
                         [&](const OutputKind& kind) { return kind.series.folder == plot_files.folder && keeps(kind); });
+  }
+
+  /// Null: the scene requests none. `written`: the complete files, under their temporary names.
+  unique_ptr<OutputFile> write_workbook(const vector<OutputFile*>& written) const {
+    const FilePlace& place = folder->place();
+    return write_tables_workbook(place, scene.output.tables, scene.title, [&](const string& name) {
+      const auto has_name = [&](const auto& record) { return record.name == name; };
+      if (any_of(written, [&](const OutputFile* file) { return has_name(file->record()); }))
+        return open_stored(place.folder, part_name(name));
+      return any_of(kept, has_name) ? open_stored(place.folder, name) : Descriptor();
+    });
   }
 
   /// The writers of both parts, in the order of the kinds of outputs.
@@ -316,6 +329,12 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
     file->complete();
     records.push_back(file->record());
     if (file == &summary_file) records.insert(records.end(), impl_->kept.begin(), impl_->kept.end());
+  }
+
+  const unique_ptr<OutputFile> workbook = impl_->write_workbook(files);
+  if (workbook) {
+    files.push_back(workbook.get());
+    records.push_back(workbook->record());
   }
 
   if (impl_->film) {

@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 
+#include "export/tables_book.h"
+#include "files/folder_names.h"
 #include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
@@ -75,6 +77,7 @@ class RunPlotter {
 
     // Another folder gets the run's totals too.
     optional<OutputFile> summary;
+    unique_ptr<OutputFile> workbook;
     vector<PartFile*> files;
     if (!in_place_) {
       summary.emplace(folder.place(), "summary.csv");
@@ -82,6 +85,15 @@ class RunPlotter {
       summary->complete();
       records.push_back(summary->record());
       files.push_back(&*summary);
+
+      workbook = write_tables_workbook(
+          folder.place(), request_.scene->output.tables, request_.scene->title, [&](const string& name) {
+            return name == "summary.csv" ? open_stored(folder.place().folder, part_name(name)) : Descriptor();
+          });
+      if (workbook) {
+        records.push_back(workbook->record());
+        files.push_back(workbook.get());
+      }
     }
 
     Series series(folder, plot_files);

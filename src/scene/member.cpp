@@ -143,12 +143,6 @@ string yaml_of(const Color& value) {
   return fmt::format("[{}, {}, {}]", shortest(value.r), shortest(value.g), shortest(value.b));
 }
 
-string plain_or_quoted(const string& word) {
-  const char first = word.empty() ? ' ' : word.front();
-  const bool plain = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || (first >= '0' && first <= '9');
-  return plain ? word : "\"" + word + "\"";
-}
-
 void fill(void* settings, const View& view) {
   for (const Field& field : view.kind().fields)
     if (field.member.fill != nullptr) field.member.fill(settings, view, field);

@@ -54,8 +54,6 @@ nlohmann::ordered_json json_value(const Field& field, const vector<string>& valu
 string yaml_of(double value);
 string yaml_of(const Vec3& value);
 string yaml_of(const Color& value);
-/// A word of the format. One that begins with no letter, such as a comma, is in quotes.
-string plain_or_quoted(const string& word);
 
 template <typename T>
 inline constexpr bool is_optional = false;
@@ -123,7 +121,7 @@ string yaml_any(const Field& field, const T& value) {
 
   } else {
     const nlohmann::ordered_json json = json_any(field, value);
-    if (json.is_string()) return plain_or_quoted(json.get<string>());
+    if (json.is_string()) return word_in_yaml(json.get<string>());
     string text = text_of_json(json);
     if (json.is_array()) text.replace(text.find(','), 1, ", ");
     return text;

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <new>
 
 #include "files/manifest.h"
@@ -90,6 +92,22 @@ size_t longest_word(string_view text) {
   return most;
 }
 
+/// A text between tags. XML has no control characters.
+string in_xml(string_view text) {
+  string xml;
+  for (const char c : text) {
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n')
+      xml += c;
+  }
+  return xml;
+}
+
 /// A failed write of a cell must not go unnoticed.
 void must(lxw_error error) {
   if (error == LXW_ERROR_MEMORY_MALLOC_FAILED) throw std::bad_alloc();
@@ -169,6 +187,38 @@ void Worksheet::head(size_t row, size_t column, string_view text, CellStyle styl
   words_[column] = max(words_[column], longest_word(text));
   const string shown = shortened(text, longest_text);
   must(worksheet_write_string(sheet_, to_row(row), to_column(column), shown.c_str(), format(style)));
+}
+
+// The library has a stream for the rows of a streamed sheet, and the last one in memory. A row that is written to that
+// stream, after the last one, is a row of the sheet as the library's own are.
+void Worksheet::exact_row(size_t row, const vector<string_view>& cells, const vector<NumberLook>& looks) {
+  lxw_worksheet_write_single_row(sheet_);
+  string xml = fmt::format("<row r=\"{}\">", row + 1);
+  const size_t columns = min(cells.size(), looks.size());
+  for (size_t column = 0; column < columns; ++column) {
+    if (cells[column].empty()) continue;
+    char name[LXW_MAX_CELL_NAME_LENGTH];
+    lxw_rowcol_to_cell(name, to_row(row), to_column(column));
+
+    if (number_in(cells[column])) {
+      widen(column, looks[column].width(), CellStyle::plain);
+      const int32_t style = lxw_format_get_xf_index(format(CellStyle::plain, &looks[column]));
+      fmt::format_to(std::back_inserter(xml), "<c r=\"{}\" s=\"{}\"><v>{}</v></c>", name, style, cells[column]);
+    } else {
+      const string text = shortened(without_guard(cells[column]), longest_text);
+      widen(column, letters_of(text), CellStyle::plain);
+      fmt::format_to(std::back_inserter(xml), "<c r=\"{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">{}</t></is></c>",
+                     name, in_xml(text));
+    }
+  }
+
+  xml += "</row>";
+  // The stream keeps its errors (workbook_files.h).
+  std::fwrite(xml.data(), 1, xml.size(), sheet_->file);
+  sheet_->dim_rowmin = min(sheet_->dim_rowmin, to_row(row));
+  sheet_->dim_rowmax = max(sheet_->dim_rowmax, to_row(row));
+  sheet_->dim_colmin = 0;
+  sheet_->dim_colmax = max(sheet_->dim_colmax, to_column(max<size_t>(columns, 1) - 1));
 }
 
 void Worksheet::set_head_row(size_t row, size_t lines) {

@@ -81,6 +81,9 @@ class Worksheet {
                const NumberLook* look = nullptr);
   /// The head of a column. Its text is broken between words.
   void head(size_t row, size_t column, string_view text, CellStyle style = CellStyle::header);
+  /// Writes a row of a streamed sheet from the cells of a CSV table, where `looks` has the columns' numbers. Numbers keep
+  /// exactly these digits; the library would round them to 16, and read back they would be other doubles.
+  void exact_row(size_t row, const vector<string_view>& cells, const vector<NumberLook>& looks);
   /// Sets the height of a row of heads. To be called before its first cell.
   void set_head_row(size_t row, size_t lines = 3);
   /// A text over several columns, of together `width` characters, in as many lines as it needs.
