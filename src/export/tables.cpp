@@ -28,13 +28,27 @@ constexpr size_t block_rows = 4096;
 /// From the second block on, formatting happens on a thread.
 constexpr uint64_t blocks_alone = 1;
 
-/// Writes a separator and a number.
-char* put_next(char* to, double value, CsvDialect dialect) {
-  *to++ = dialect.separator;
+/// The dialect of most tables, known where their many numbers are formatted.
+struct UsualDialect {
+  static constexpr char separator = ',';
+};
+
+char* put_cell(char* to, double value, UsualDialect) {
+  return put_number(to, value);
+}
+char* put_cell(char* to, double value, CsvDialect dialect) {
   return put_number(to, value, dialect);
 }
 
-char* put_motion(char* to, const Vec3& position, const Vec3& velocity, CsvDialect dialect) {
+/// Writes a separator and a number.
+template <typename Dialect>
+char* put_next(char* to, double value, Dialect dialect) {
+  *to++ = dialect.separator;
+  return put_cell(to, value, dialect);
+}
+
+template <typename Dialect>
+char* put_motion(char* to, const Vec3& position, const Vec3& velocity, Dialect dialect) {
   for (int axis = 0; axis < 3; ++axis) to = put_next(to, position[axis], dialect);
   for (int axis = 0; axis < 3; ++axis) to = put_next(to, velocity[axis], dialect);
   return to;
@@ -166,24 +180,32 @@ vector<OutputFile*> TrajectoryTable::files() {
 }
 
 void TrajectoryTable::write(Block& block) {
-  const Motion* motion = block.motions.data();
-  for (const Part& part : block.parts) {
-    if (scene_.output.trajectory->wide)
-      write_wide(part, motion);
-    else
-      write_long(part, motion);
-    motion += part.count;
-  }
+  if (file_.dialect() == CsvDialect())
+    write(block, UsualDialect());
+  else
+    write(block, file_.dialect());
   block.parts.clear();
   block.motions.clear();
 }
 
-void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
+template <typename Dialect>
+void TrajectoryTable::write(const Block& block, Dialect dialect) {
+  const Motion* motion = block.motions.data();
+  for (const Part& part : block.parts) {
+    if (scene_.output.trajectory->wide)
+      write_wide(part, motion, dialect);
+    else
+      write_long(part, motion, dialect);
+    motion += part.count;
+  }
+}
+
+template <typename Dialect>
+void TrajectoryTable::write_long(const Part& part, const Motion* motion, Dialect dialect) {
   if (part.count == 0) return;
   // All bodies share the digits of the time, which are formatted once and copied.
   char time_text[number_size];
-  const CsvDialect dialect = file_.dialect();
-  const string_view time_cell(time_text, size_t(put_number(time_text, part.time, dialect) - time_text));
+  const string_view time_cell(time_text, size_t(put_cell(time_text, part.time, dialect) - time_text));
 
   const BodyRange* range = &scene_.roster.range_of(bodies_[part.first]);
   for (const Entity body : span(bodies_).subspan(part.first, part.count)) {
@@ -201,12 +223,13 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
   }
 }
 
-void TrajectoryTable::write_wide(const Part& part, const Motion* motion) {
+template <typename Dialect>
+void TrajectoryTable::write_wide(const Part& part, const Motion* motion, Dialect dialect) {
   const string none(motion_columns.size(), separator_);
   if (part.first == 0) write_time(file_, part.time);
   for (Entity i = 0; i < part.count; ++i, ++motion) {
     if (isfinite(motion->position.x()))
-      file_.written(put_motion(file_.room(motion_size), motion->position, motion->velocity, file_.dialect()));
+      file_.written(put_motion(file_.room(motion_size), motion->position, motion->velocity, dialect));
     else
       file_.write(none);
   }
@@ -246,8 +269,8 @@ void CollisionTable::write(vector<Collision>& collisions) {
     for (const Entity entity : {collision.a, collision.b}) write_name(file_, roster_, bodies_, entity);
 
     const CsvDialect dialect = file_.dialect();
-    char* to = put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal,
-                          dialect);
+    char* to =
+        put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal, dialect);
     for (const double value : {collision.approach_speed, collision.separation_speed, collision.restitution,
                                collision.impulse, collision.energy_lost})
       to = put_next(to, value, dialect);

@@ -66,8 +66,12 @@ class TrajectoryTable : public TableWriter {
     vector<Motion> motions;
   };
   void write(Block& block);
-  void write_long(const Part& part, const Motion* motion);
-  void write_wide(const Part& part, const Motion* motion);
+  template <typename Dialect>
+  void write(const Block& block, Dialect dialect);
+  template <typename Dialect>
+  void write_long(const Part& part, const Motion* motion, Dialect dialect);
+  template <typename Dialect>
+  void write_wide(const Part& part, const Motion* motion, Dialect dialect);
 
   const Scene& scene_;
   const vector<Entity> bodies_;  // those with rows, ascending

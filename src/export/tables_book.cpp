@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "export/child.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
 #include "scene/output_kinds.h"
@@ -16,15 +17,18 @@ namespace carom {
 namespace {
 
 /// Sheets in their order, and the tables that they show.
-constexpr pair<const char*, const char*> sheets[] = {{"Summary", "summary.csv"},       {"Energy", "energy.csv"},
-                                                     {"Collisions", "collisions.csv"}, {"Contacts", "contacts.csv"},
-                                                     {"Regions", "regions.csv"},       {"Trajectory", "trajectory.csv"}};
+constexpr pair<const char*, const char*> sheets[] = {
+    {"Summary", "summary.csv"},   {"Energy", "energy.csv"},   {"Collisions", "collisions.csv"},
+    {"Contacts", "contacts.csv"}, {"Regions", "regions.csv"}, {"Trajectory", "trajectory.csv"}};
 
 /// As many as one sheet of the archive can hold, at 40 bytes each.
 constexpr size_t most_cells = 60'000'000;
 
 /// All first rows count for the looks of columns, and some of the others.
 constexpr size_t first_rows = 10'000, row_step = 61;
+
+/// Rows between two checks for an interrupt.
+constexpr size_t rows_between = 1000;
 
 /// Of a table that is cut.
 constexpr size_t columns_of_note = 8;
@@ -46,6 +50,7 @@ TableLook look_at(StoredTable& table) {
   TableLook look;
   look.columns.resize(min(table.columns().size(), most_columns));
   for (; const auto* cells = table.next(); ++look.rows) {
+    if (look.rows % rows_between == 0) check_now();
     if (look.rows >= first_rows && look.rows % row_step != 0) continue;
     for (size_t k = 0; k < min(cells->size(), look.columns.size()); ++k)
       if (const auto number = number_in((*cells)[k])) look.columns[k].add(*number);
@@ -73,13 +78,15 @@ void write_sheet(Worksheet& sheet, const char* name, Descriptor file) {
 
   sheet.set_head_row(head_row, 1);
   for (size_t k = 0; k < columns; ++k) sheet.head(head_row, k, heads[k]);
-  for (size_t row = 1; row <= rows; ++row)
-    if (const auto* cells = table.next()) sheet.exact_row(head_row + row, *cells, look.columns);
+  const vector<ExactColumn> exact = sheet.exact_columns(look.columns);
+  for (size_t row = 1; row <= rows; ++row) {
+    if (row % rows_between == 0) check_now();
+    if (const auto* cells = table.next()) sheet.exact_row(head_row + row, *cells, exact);
+  }
 
   sheet.fit_table();
   sheet.freeze(head_row + 1, 1);
-  if (rows > 1)
-    worksheet_autofilter(sheet.get(), to_row(head_row), 0, to_row(head_row + rows), to_column(columns - 1));
+  if (rows > 1) worksheet_autofilter(sheet.get(), to_row(head_row), 0, to_row(head_row + rows), to_column(columns - 1));
   sheet.print_table(head_row);
 }
 

@@ -2,6 +2,7 @@
 // The date of creation is fixed, and the archive is compared with the parts written to it before it is copied.
 #include "workbook/workbook.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -189,26 +190,36 @@ void Worksheet::head(size_t row, size_t column, string_view text, CellStyle styl
   must(worksheet_write_string(sheet_, to_row(row), to_column(column), shown.c_str(), format(style)));
 }
 
+vector<ExactColumn> Worksheet::exact_columns(const vector<NumberLook>& looks) const {
+  vector<ExactColumn> columns;
+  for (const NumberLook& look : looks) {
+    char letters[LXW_MAX_COL_NAME_LENGTH];
+    lxw_col_to_name(letters, to_column(columns.size()), 0);
+    columns.push_back({letters, lxw_format_get_xf_index(format(CellStyle::plain, &look)), look.width()});
+  }
+  return columns;
+}
+
 // The library has a stream for the rows of a streamed sheet, and the last one in memory. A row that is written to that
 // stream, after the last one, is a row of the sheet as the library's own are.
-void Worksheet::exact_row(size_t row, const vector<string_view>& cells, const vector<NumberLook>& looks) {
+void Worksheet::exact_row(size_t row, const vector<string_view>& cells, const vector<ExactColumn>& columns) {
   lxw_worksheet_write_single_row(sheet_);
   string xml = fmt::format("<row r=\"{}\">", row + 1);
-  const size_t columns = min(cells.size(), looks.size());
-  for (size_t column = 0; column < columns; ++column) {
-    if (cells[column].empty()) continue;
-    char name[LXW_MAX_CELL_NAME_LENGTH];
-    lxw_rowcol_to_cell(name, to_row(row), to_column(column));
+  const auto out = std::back_inserter(xml);
+  const size_t count = min(cells.size(), columns.size());
 
-    if (number_in(cells[column])) {
-      widen(column, looks[column].width(), CellStyle::plain);
-      const int32_t style = lxw_format_get_xf_index(format(CellStyle::plain, &looks[column]));
-      fmt::format_to(std::back_inserter(xml), "<c r=\"{}\" s=\"{}\"><v>{}</v></c>", name, style, cells[column]);
+  for (size_t k = 0; k < count; ++k) {
+    const ExactColumn& column = columns[k];
+    if (cells[k].empty()) continue;
+    if (number_in(cells[k])) {
+      widen(k, column.width, CellStyle::plain);
+      fmt::format_to(out, FMT_COMPILE("<c r=\"{}{}\" s=\"{}\"><v>{}</v></c>"), column.letters, row + 1, column.style,
+                     cells[k]);
     } else {
-      const string text = shortened(without_guard(cells[column]), longest_text);
-      widen(column, letters_of(text), CellStyle::plain);
-      fmt::format_to(std::back_inserter(xml), "<c r=\"{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">{}</t></is></c>",
-                     name, in_xml(text));
+      const string text = shortened(without_guard(cells[k]), longest_text);
+      widen(k, letters_of(text), CellStyle::plain);
+      fmt::format_to(out, FMT_COMPILE("<c r=\"{}{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">{}</t></is></c>"),
+                     column.letters, row + 1, in_xml(text));
     }
   }
 
@@ -218,7 +229,7 @@ void Worksheet::exact_row(size_t row, const vector<string_view>& cells, const ve
   sheet_->dim_rowmin = min(sheet_->dim_rowmin, to_row(row));
   sheet_->dim_rowmax = max(sheet_->dim_rowmax, to_row(row));
   sheet_->dim_colmin = 0;
-  sheet_->dim_colmax = max(sheet_->dim_colmax, to_column(max<size_t>(columns, 1) - 1));
+  sheet_->dim_colmax = max(sheet_->dim_colmax, to_column(max<size_t>(count, 1) - 1));
 }
 
 void Worksheet::set_head_row(size_t row, size_t lines) {

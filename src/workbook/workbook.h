@@ -64,6 +64,13 @@ class CellFormats {
   map<pair<CellStyle, string>, lxw_format*> made_;
 };
 
+/// A column of rows that keep all digits.
+struct ExactColumn {
+  string letters;     // "AB"
+  int32_t style = 0;  // of numbers, in the library's table
+  size_t width = 0;   // of numbers, in characters
+};
+
 class Worksheet {
  public:
   Worksheet(lxw_worksheet* sheet, CellFormats& formats) : sheet_(sheet), formats_(formats) {}
@@ -81,9 +88,11 @@ class Worksheet {
                const NumberLook* look = nullptr);
   /// The head of a column. Its text is broken between words.
   void head(size_t row, size_t column, string_view text, CellStyle style = CellStyle::header);
-  /// Writes a row of a streamed sheet from the cells of a CSV table, where `looks` has the columns' numbers. Numbers keep
-  /// exactly these digits; the library would round them to 16, and read back they would be other doubles.
-  void exact_row(size_t row, const vector<string_view>& cells, const vector<NumberLook>& looks);
+  /// Writes a row of a streamed sheet from the cells of a CSV table. Numbers keep exactly these digits; the library
+  /// would round them to 16, and read back they would be other doubles.
+  void exact_row(size_t row, const vector<string_view>& cells, const vector<ExactColumn>& columns);
+  /// The columns of such rows, by the looks of their numbers.
+  vector<ExactColumn> exact_columns(const vector<NumberLook>& looks) const;
   /// Sets the height of a row of heads. To be called before its first cell.
   void set_head_row(size_t row, size_t lines = 3);
   /// A text over several columns, of together `width` characters, in as many lines as it needs.
