@@ -296,8 +296,7 @@ string to_come_text(const PlannedScene& planned, const Findings& findings) {
   return fmt::format("{}{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
                      video && video->slow ? "at most " : "",
                      counted(planned.price.forecast.frames, "picture", "pictures"),
-                     trajectory_rows_text(planned.price.forecast.tables),
-                     bytes_text(bytes_to_come(planned, findings)),
+                     trajectory_rows_text(planned.price.forecast.tables), bytes_text(bytes_to_come(planned, findings)),
                      !seconds         ? "an unknown time"
                      : *seconds < 0.5 ? "less than a second"
                      : *seconds < 9.5 ? fmt::format("roughly {:.0f} s", *seconds)

@@ -236,7 +236,8 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   // Files and time.
   for (const LeftOut& file : result.facts.left_out)
     block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
-  for (const string& text : large_tables(result.facts.tables, planned.scene->output, false)) block.warning("large", text);
+  for (const string& text : large_tables(result.facts.tables, planned.scene->output, false))
+    block.warning("large", text);
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), written_files(planned)));
   block.line("time", fmt::format("{}: load {}, simulate {}, draw {}, write {}",
                                  wait_text(result.facts.load_s + result.wall_s), wait_text(result.facts.load_s),

@@ -2,7 +2,6 @@
 // RFC 4180 cells: numbers with the shortest digits that read back to the same double,
 // and text that no spreadsheet runs. The separator and the decimal mark are those of the file.
 // Lines end in LF.
-#include <algorithm>
 #include <charconv>
 
 #include "files/output_file.h"
@@ -43,7 +42,8 @@ inline string number_cell(double value) {
 /// A text that a spreadsheet would take for a formula gets an apostrophe in front.
 string text_cell(string_view text, CsvDialect dialect = {});
 
-/// One row at a time, cell by cell, in the dialect of the file, for tables with few rows. The trajectory writes into its file's buffer directly.
+/// One row at a time, cell by cell, in the dialect of the file, for tables with few rows. The trajectory writes into
+/// its file's buffer directly.
 class CsvRow {
  public:
   explicit CsvRow(OutputFile& file) : file_(file) {}

@@ -1,6 +1,6 @@
 #pragma once
-// The characters of a CSV file. By default they are those of RFC 4180 and of most programs. Where a comma is the decimal
-// mark, spreadsheets expect another separator.
+// The characters of a CSV file. By default they are those of RFC 4180 and of most programs. Where a comma is the
+// decimal mark, spreadsheets expect another separator.
 
 #include "scene/output.h"
 #include "std.h"

@@ -32,9 +32,7 @@ size_t Deflation::pack(span<const uint8_t> bytes, uint8_t* to, size_t room, Form
   stream.level = 1;
   stream.level_buf = work_.data();
   stream.level_buf_size = uint32_t(work_.size());
-  stream.gzip_flag = format == Format::zlib   ? IGZIP_ZLIB
-                     : format == Format::gzip ? IGZIP_GZIP
-                                              : IGZIP_DEFLATE;
+  stream.gzip_flag = format == Format::zlib ? IGZIP_ZLIB : format == Format::gzip ? IGZIP_GZIP : IGZIP_DEFLATE;
   stream.next_in = const_cast<uint8_t*>(bytes.data());
   stream.next_out = to;
   stream.avail_out = uint32_t(room);

@@ -1,5 +1,5 @@
-// By ISA-L. Its reader gives the whole of a member before its checksum, so a damaged file is an error only at the end of
-// the damaged member. What was read until then is not used.
+// By ISA-L. Its reader gives the whole of a member before its checksum, so a damaged file is an error only at the end
+// of the damaged member. What was read until then is not used.
 #include "files/gzip.h"
 
 #include <isa-l/igzip_lib.h>

@@ -65,6 +65,8 @@ void split_cells(string_view line, char separator, vector<string_view>& cells, s
     } else {
       const size_t end = min(line.find(separator, i), line.size());
       string_view cell = line.substr(i, end - i);
+
+      // A decimal comma.
       if (const size_t mark = separator == ',' ? cell.npos : cell.find(','); mark != cell.npos) {
         const size_t from = changed.size();
         changed += cell;

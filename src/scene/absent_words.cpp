@@ -150,7 +150,8 @@ constexpr AbsentWord all_words[] = {
     {"gif|webp|mp4|movie|film|animation",
      "A film is `output.video`. The ending of `video.file` chooses H.264, GIF or WebP.", "video|video.file"},
     {"csv|table|spreadsheet|excel|xlsx|data",
-     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`. `output.tables` chooses how they "
+     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`. `output.tables` chooses how "
+     "they "
      "are written: CSV, compressed, or also a workbook. `carom compare` puts runs into a workbook. A group may begin "
      "with the `table` of its balls.",
      "output|output.tables|groups.table"},

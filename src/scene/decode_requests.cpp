@@ -98,7 +98,8 @@ class Requests {
 
     using Tables = TablesOutput;
     if (out.tables.separator == Tables::Separator::comma && out.tables.decimal == Tables::Decimal::comma)
-      diagnostics_.add(view.part("tables").place("decimal"), "the separator of cells and the decimal mark are both commas",
+      diagnostics_.add(view.part("tables").place("decimal"),
+                       "the separator of cells and the decimal mark are both commas",
                        "expected `{separator: \";\", decimal: \",\"}`, as spreadsheets with decimal commas have it");
 
     // The pictures.

@@ -196,12 +196,12 @@ string expected(const Field& field) {
   vector<string> words;
   for (const string_view choice : choices(field)) words.push_back(word_in_yaml(choice));
   const bool is_other = field.type == Type::names ? !field.of.empty() : !field.plain.empty();
-  return fmt::format(fmt::runtime(is_other ? facts.other_form : facts.form),
-                     fmt::arg("limits", range.empty() ? "" : " " + range),
-                     fmt::arg("unit", field.unit.empty() ? "" : fmt::format(" in {}", field.unit)),
-                     fmt::arg("an", field.range.even ? "an even" : "a"),
-                     fmt::arg("even", field.range.even ? "even " : ""), fmt::arg("choices", listed({words.begin(), words.end()})),
-                     fmt::arg("plain", listed(parts_of(field.plain))), fmt::arg("example", field.example));
+  return fmt::format(
+      fmt::runtime(is_other ? facts.other_form : facts.form), fmt::arg("limits", range.empty() ? "" : " " + range),
+      fmt::arg("unit", field.unit.empty() ? "" : fmt::format(" in {}", field.unit)),
+      fmt::arg("an", field.range.even ? "an even" : "a"), fmt::arg("even", field.range.even ? "even " : ""),
+      fmt::arg("choices", listed({words.begin(), words.end()})), fmt::arg("plain", listed(parts_of(field.plain))),
+      fmt::arg("example", field.example));
 }
 
 }  // namespace carom

@@ -35,7 +35,7 @@ constexpr Field contacts_fields[] = {
 };
 
 constexpr Field tables_fields[] = {
-    row<TablesOutput, &TablesOutput::format>("format", "csv; csv.gz: the tables of the motion compressed, at about two fifths of the size; xlsx: CSV, and all tables in tables.xlsx.", "csv.gz", {.of = "csv|csv.gz|xlsx"}),
+    row<TablesOutput, &TablesOutput::format>("format", "csv; csv.gz: the tables of the motion compressed, to half of the size or less; xlsx: CSV, and all tables in tables.xlsx.", "csv.gz", {.of = "csv|csv.gz|xlsx"}),
     row<TablesOutput, &TablesOutput::separator>("separator", "The character between the cells of CSV files, those of a sweep included. A spreadsheet with decimal commas expects a semicolon.", "\";\"", {.of = ",|;|tab"}),
     row<TablesOutput, &TablesOutput::decimal>("decimal", "The decimal mark in CSV files. A comma needs another separator.", "\",\"", {.of = ".|,", .title = "Decimal mark"}),
 };
@@ -279,8 +279,11 @@ optional<Size> size_named(string_view name) {
 }
 
 Field tables_field() {
-  return row_if_given<Output, &Output::tables>(
-      "tables", "How tables are written. A word alone is `format`. `{separator: \";\", decimal: \",\"}` suits spreadsheets with decimal commas.", "{separator: \";\", decimal: \",\"}", {.of = "tables", .plain = "format"});
+  return row_if_given<Output, &Output::tables>("tables",
+                                               "How tables are written. A word alone is `format`. `{separator: \";\", "
+                                               "decimal: \",\"}` suits spreadsheets with decimal commas.",
+                                               "{separator: \";\", decimal: \",\"}",
+                                               {.of = "tables", .plain = "format"});
 }
 
 string table_file(const TablesOutput& tables, string_view name) {
@@ -324,7 +327,8 @@ nlohmann::ordered_json OutputKind::settings(const Output& output) const {
 bool OutputKind::has_file(string_view file) const {
   const vector<string_view> all = parts_of(files);
   return any_of(all, [&](string_view name) {
-    return file == name || (name.ends_with(table_ending) && file.starts_with(name) && file.substr(name.size()) == ".gz");
+    return file == name ||
+           (name.ends_with(table_ending) && file.starts_with(name) && file.substr(name.size()) == ".gz");
   });
 }
 

@@ -375,6 +375,7 @@ string flow_text(const Node& node) {
     const bool plain = !node.quoted && is_name(node.text) && (is_flag || !is_word_elsewhere(node.text));
     return plain ? node.text : in_quotes(node.text);
   }
+
   string out;
   for (size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) out += ", ";

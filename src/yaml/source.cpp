@@ -92,10 +92,12 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   };
   const auto complete = [&] {
     if (!has_utf8_form(text))
-      return refuse("this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)", "save it as UTF-8");
+      return refuse("this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
+                    "save it as UTF-8");
     normalise(text);
     return true;
   };
+
   if (path == standard_input && from_standard_input()) {
     text = *from_standard_input();
     return text.size() > max_source_bytes ? too_big() : complete();

@@ -17,8 +17,8 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics);
 /// The path of standard input, and how messages name it.
 inline constexpr const char* standard_input = "-";
 
-/// Reads all of standard input, or as much as a source may have; from here on read_source() has it by the path above. To
-/// be called once. `stop_check` is called often, and may throw.
+/// Reads all of standard input, or as much as a source may have; from here on read_source() has it by the path above.
+/// To be called once. `stop_check` is called often, and may throw.
 void read_standard_input(const function<void()>& stop_check);
 
 /// The reason why this path cannot be read as a regular file: "there is no file" or the system's reason.
