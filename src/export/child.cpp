@@ -65,10 +65,6 @@ void check_while_waiting(function<void()> function) {
   stop_check() = std::move(function);
 }
 
-void check_now() {
-  stop_check()();
-}
-
 optional<string> find_program(const string& name) {
   const char* path = std::getenv("PATH");
   string_view rest = path ? path : "";

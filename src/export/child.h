@@ -14,8 +14,6 @@ namespace carom {
 /// It may throw, and the function that waits passes the exception on.
 /// It is set once, at the program's start. By default nothing is called.
 void check_while_waiting(function<void()> stop_check);
-/// Calls that function, during long work on the thread that may wait.
-void check_now();
 
 /// The absolute path of a program on PATH, or none. Throws ExportError if the search fails.
 optional<string> find_program(const string& name);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "export/child.h"
 #include "files/stored_file.h"
 #include "files/stored_table.h"
 #include "scene/output_kinds.h"
@@ -50,7 +49,7 @@ TableLook look_at(StoredTable& table) {
   TableLook look;
   look.columns.resize(min(table.columns().size(), most_columns));
   for (; const auto* cells = table.next(); ++look.rows) {
-    if (look.rows % rows_between == 0) check_now();
+    if (look.rows % rows_between == 0) check_packing();
     if (look.rows >= first_rows && look.rows % row_step != 0) continue;
     for (size_t k = 0; k < min(cells->size(), look.columns.size()); ++k)
       if (const auto number = number_in((*cells)[k])) look.columns[k].add(*number);
@@ -80,7 +79,7 @@ void write_sheet(Worksheet& sheet, const char* name, Descriptor file) {
   for (size_t k = 0; k < columns; ++k) sheet.head(head_row, k, heads[k]);
   const vector<ExactColumn> exact = sheet.exact_columns(look.columns);
   for (size_t row = 1; row <= rows; ++row) {
-    if (row % rows_between == 0) check_now();
+    if (row % rows_between == 0) check_packing();
     if (const auto* cells = table.next()) sheet.exact_row(head_row + row, *cells, exact);
   }
 
