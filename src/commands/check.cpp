@@ -13,6 +13,7 @@
 #include "commands/scene_outcome.h"
 #include "commands/sizes.h"
 #include "commands/slow.h"
+#include "commands/table_sizes.h"
 #include "commands/text.h"
 #include "commands/volumes_report.h"
 #include "export/flights_file.h"
@@ -295,8 +296,7 @@ string to_come_text(const PlannedScene& planned, const SceneFindings& findings) 
   return fmt::format("{}{}{}, {}, about {} and {}", steps ? steps_text(*steps) + ", " : "",
                      video && video->slow ? "at most " : "",
                      counted(planned.price.forecast.frames, "picture", "pictures"),
-                     counted(planned.price.forecast.rows, "trajectory row", "trajectory rows"),
-                     bytes_text(bytes_to_come(planned, findings)),
+                     trajectory_rows_text(planned.price.forecast.tables), bytes_text(bytes_to_come(planned, findings)),
                      !seconds         ? "an unknown time"
                      : *seconds < 0.5 ? "less than a second"
                      : *seconds < 9.5 ? fmt::format("roughly {:.0f} s", *seconds)
@@ -337,6 +337,8 @@ void describe(Block& block, const PlannedScene& planned, const SceneFindings& fi
   }
 
   block.line("to come", to_come_text(planned, findings));
+  for (const string& text : large_tables(planned.price.forecast.tables, planned.scene->output, true))
+    block.warning("large", text);
   block.line("folder", fmt::format("{}: {}", printable(planned.folder), content_text(planned)));
 }
 
@@ -433,7 +435,10 @@ Json as_json(const PlannedScene& planned, const SceneFindings& findings) {
   const optional<double> steps = steps_of(scene);
   entry["steps"] = steps ? Json(*steps) : Json(nullptr);
   entry["pictures"] = planned.price.forecast.frames;
-  entry["trajectory_rows"] = planned.price.forecast.rows;
+  const vector<TableSize>& tables = planned.price.forecast.tables;
+  const TableSize* const trajectory = find_size(tables, "trajectory");
+  entry["trajectory_rows"] = trajectory == nullptr ? 0 : trajectory->rows;
+  entry["tables"] = sizes_json(tables);
   entry["bytes"] = bytes_to_come(planned, findings);
   const optional<double> seconds = seconds_to_come(planned, findings);
   entry["seconds"] = seconds ? Json(*seconds) : Json(nullptr);

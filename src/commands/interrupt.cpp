@@ -7,6 +7,7 @@
 
 #include "export/child.h"
 #include "render/mesh.h"
+#include "workbook/workbook_files.h"
 
 namespace carom {
 
@@ -35,6 +36,7 @@ void catch_signals() {
   }
   check_while_waiting(stop_if_interrupted);
   check_while_reading(stop_if_interrupted);
+  check_while_packing(stop_if_interrupted);
 }
 
 void stop_if_interrupted() {

@@ -67,7 +67,7 @@ void mark_failed(PlannedScene& planned, const string& text) {
 }
 
 SceneOrigin origin_of(const PlannedScene& planned, const Options& options) {
-  SceneOrigin origin{path_from(planned.folder, planned.file), {}};
+  SceneOrigin origin{planned.file == standard_input ? string() : path_from(planned.folder, planned.file), {}};
   for (const string& set : options.set) origin.settings.push_back(valid_utf8(set));
   if (options.seed) origin.settings.push_back(fmt::format("seed={}", *options.seed));
   return origin;
@@ -248,9 +248,11 @@ void hold_to_budget(const Scene& scene, const Forecast& forecast, string_view as
 
 vector<PlannedScene> named_scenes(const Options& options, Purpose purpose) {
   vector<PlannedScene> scenes(options.operands.size());
+  if (contains(options.operands, standard_input)) read_standard_input(stop_if_interrupted);
   for (size_t i = 0; i < scenes.size(); ++i) {
     scenes[i].file = options.operands[i];
-    scenes[i].name = fs::path(options.operands[i]).stem().string();
+    const bool piped = options.operands[i] == standard_input;
+    scenes[i].name = piped ? "stdin" : fs::path(options.operands[i]).stem().string();
     const string usual = scenes[i].name + (purpose == Purpose::bench ? ".bench" : "");
     scenes[i].folder = folder_of(options, scenes[i].name, (fs::path("output") / usual).string());
   }

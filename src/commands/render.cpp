@@ -46,13 +46,18 @@ void refuse_tables(const Options& options) {
                        fmt::format("carom {} {}", name == plot_files.folder ? "plot makes" : "run writes", name));
 }
 
-/// Charts show tables and flights, whatever the pictures.
-void refuse_charts(const Options& options, const string& folder) {
-  const string path = fmt::format("output.{}", plot_files.folder);
-  for (const string& set : options.set)
-    if (set.substr(0, set.find('=')) == path)
+/// Charts show tables and flights, whatever the pictures. Tables stay as they are.
+void refuse_settings(const Options& options, const string& folder) {
+  const string charts = fmt::format("output.{}", plot_files.folder), tables = "output.tables";
+  for (const string& set : options.set) {
+    const string path = set.substr(0, set.find('='));
+    if (path == tables || path.starts_with(tables + "."))
+      throw ExportError(fmt::format("--set {}: render writes no tables\n  carom run {}/scene.yaml --set {} writes them",
+                                    printable(set), printable(folder), printable(shell_word(set))));
+    if (path == charts)
       throw ExportError(fmt::format("--set {}: render makes no {}\n  carom plot {} makes them", printable(set),
                                     plot_files.whats, printable(folder)));
+  }
 }
 
 /// As typed in a shell.
@@ -76,7 +81,7 @@ class Planner {
     const auto start = std::chrono::steady_clock::now();
     settle_folder(planned.file);
     settle_folder(planned.folder);
-    refuse_charts(options_, planned.file);
+    refuse_settings(options_, planned.file);
 
     // The run by its own scene, then that scene with what the command line changes.
     const string path = former_scene_file(planned.file);

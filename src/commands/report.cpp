@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "commands/error_list.h"
+#include "commands/table_sizes.h"
 #include "commands/text.h"
 #include "files/folder_writer.h"
 #include "files/manifest.h"
@@ -235,6 +236,8 @@ void describe(Block& block, const PlannedScene& planned, const RunResult& result
   // Files and time.
   for (const LeftOut& file : result.facts.left_out)
     block.line("left out", fmt::format("{}: {}", printable(file.name), file.why));
+  for (const string& text : large_tables(result.facts.tables, planned.scene->output, false))
+    block.warning("large", text);
   block.line("wrote", fmt::format("{}: {}", printable(planned.folder), written_files(planned)));
   block.line("time", fmt::format("{}: load {}, simulate {}, draw {}, write {}",
                                  wait_text(result.facts.load_s + result.wall_s), wait_text(result.facts.load_s),

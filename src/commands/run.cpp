@@ -24,7 +24,8 @@ const Command run_command = {
     "  carom run scene.yaml --only trajectory,collisions     data only, no pictures\n"
     "  carom run scene.yaml --set balls.red.restitution=0.5 -o output/half\n"
     "  carom run scenes/*.yaml -o results                    results/<scene file's stem>/...\n"
-    "  carom run scene.yaml --watch                          again at each save\n",
+    "  carom run scene.yaml --watch                          again at each save\n"
+    "  carom run - -o output/made < scene.json               a scene from standard input, in YAML or JSON\n",
     "Without -o a scene's run goes to output/<scene file's stem>/. All scenes are checked before\n"
     "the first is run. A folder that holds this very run is up to date and costs nothing. A run of the\n"
     "same scene file from before it was edited is replaced, if nothing in its folder was changed.\n"

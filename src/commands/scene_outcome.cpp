@@ -6,6 +6,7 @@
 #include "commands/accuracy_report.h"
 #include "commands/error_list.h"
 #include "commands/interrupt.h"
+#include "commands/table_sizes.h"
 #include "commands/text.h"
 #include "files/checkpoint_file.h"
 #include "scene/scene.h"
@@ -37,6 +38,7 @@ void add_members(Json& entry, const PlannedScene& planned, const RunResult& resu
   if (!result.summary.energy.of_forces.empty()) entry["work"] = work_json(result.summary);
   entry["warnings"] = warnings_json(result.summary.warnings);
   entry["files"] = files_in(planned.folder);
+  entry["tables"] = sizes_json(result.facts.tables);
   entry["time"] = times_json(result);
 }
 

@@ -46,6 +46,7 @@ output:
   trajectory: {every: 0.01}       # trajectory.csv: position and velocity
   collisions: true                # collisions.csv: every collision
   energy: {every: 0.01}           # energy.csv
+  # tables: {separator: ";", decimal: ","}   # for spreadsheets with decimal commas
   frames: {fps: 10, size: [640, 360]}
   # video: {fps: 30, size: [1280, 720]}
 )";

@@ -109,7 +109,7 @@ class SweepSession {
     const auto start = std::chrono::steady_clock::now();
     const bool is_part = shard_.count > 1;
     SweepFolder folder(folder_, is_part ? SweepFolder::Use::part : SweepFolder::Use::exclusive, job.sweep(),
-                       job.base_text(), skipped_text(job.sweep(), job.invalid()), stop_if_interrupted);
+                       job.base_text(), skipped_text(job.sweep(), job.base_text(), job.invalid()), stop_if_interrupted);
 
     SweepOutcome outcome;
     for (const InvalidRun& run : job.invalid()) outcome.skipped.emplace_back(job.sweep().id(run.number), run.messages);

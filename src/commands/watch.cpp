@@ -24,6 +24,8 @@ class WatchSession {
   explicit WatchSession(const Options& options) : options_(options), files_(options.operands.size()) {}
 
   int go() {
+    if (contains(options_.operands, standard_input))
+      throw UsageError("--watch needs a file, and standard input is none", "write the scene to a file and name that");
     set<string> changed(options_.operands.begin(), options_.operands.end());
     for (size_t i = 0; i < files_.size(); ++i) files_[i] = {options_.operands[i]};
     watch_.follow(changed);

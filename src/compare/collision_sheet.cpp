@@ -3,8 +3,8 @@
 #include "compare/collision_sheet.h"
 
 #include "compare/data_dictionary.h"
-#include "compare/number_look.h"
 #include "std.h"
+#include "workbook/number_look.h"
 
 namespace carom {
 

@@ -2,8 +2,8 @@
 // The sheet with the first collisions of each run, one run below the other.
 
 #include "compare/compared_run.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

@@ -23,14 +23,15 @@ string_view take(string_view& rest, char separator) {
 
 void CommonValues::add(const RunRecord& run) {
   if (!run.done) return;
-  const auto text = read_text(run.folder.get(), "scene.yaml", max_source_bytes);
-  if (!text) return;
+  const auto stored = read_text(run.folder.get(), "scene.yaml", max_source_bytes);
+  if (!stored) return;
+  const string text = without_tables(*stored);
   if (text_.empty()) {
     folder_ = run.run.folder;
-    text_ = *text;
+    text_ = text;
     same_.assign(text_.size(), true);
-  } else if (text_ != *text) {
-    compare(*text);
+  } else if (text_ != text) {
+    compare(text);
   }
 }
 

@@ -6,8 +6,8 @@
 #include "compare/parameter_sheet.h"
 #include "compare/pivot_sheet.h"
 #include "compare/sheet_charts.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

@@ -9,7 +9,9 @@
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "files/stored_file.h"
+#include "scene/scene_values.h"
 #include "std.h"
+#include "yaml/source.h"
 
 namespace carom {
 namespace {
@@ -29,13 +31,19 @@ vector<string> read_summary(const RunRecord& run) {
 }  // namespace
 
 StoredTable open_table(const RunRecord& run, const char* name) {
-  Descriptor file = open_stored(run.folder.get(), name);
+  Descriptor file = open_stored_table(run.folder.get(), name);
   if (!file) refuse_run(run.run.folder, fmt::format("has no {}", name));
   return StoredTable(std::move(file));
 }
 
 bool has_file(const RunRecord& run, const char* name) {
-  return stored_size(run.folder.get(), name).has_value();
+  return stored_table(run.folder.get(), name).has_value();
+}
+
+optional<CsvDialect> dialect_of(const ComparedRun& run) {
+  const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
+  const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : nullopt;
+  return text ? optional(CsvDialect(own_tables(*text))) : nullopt;
 }
 
 bool has_measures(const string& path, const vector<Measure>& measures) {

@@ -22,12 +22,15 @@ struct RunRecord {
 /// The text names the remedy.
 RunRecord read_run(ComparedRun run, const vector<Measure>& measures);
 
+/// How the tables of a run are written, by its scene.yaml. None: it has none.
+optional<CsvDialect> dialect_of(const ComparedRun& run);
+
 /// Whether all measures can be determined from the complete run in this folder.
 bool has_measures(const string& folder, const vector<Measure>& measures);
 
 /// A table of the run. Throws ExportError if it is absent.
 StoredTable open_table(const RunRecord& run, const char* name);
-/// Whether the file exists.
+/// Whether the file exists, a table perhaps compressed.
 bool has_file(const RunRecord& run, const char* name);
 
 }  // namespace carom

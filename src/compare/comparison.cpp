@@ -20,11 +20,11 @@
 #include "compare/series.h"
 #include "compare/sheet_charts.h"
 #include "compare/summary_sheet.h"
-#include "compare/workbook.h"
 #include "files/manifest.h"
 #include "files/run_folder.h"
 #include "scene/output_kinds.h"
 #include "std.h"
+#include "workbook/workbook.h"
 #include "yaml/diagnostics.h"
 #include "yaml/joined.h"
 
@@ -101,7 +101,7 @@ class Comparison {
     files.push_back(summary_.take_table());
 
     if (plan_.seed) {
-      files.push_back(make_unique<OutputFile>(place_, repeats_name));
+      files.push_back(make_unique<OutputFile>(place_, repeats_name, plan_.dialect));
       write_repeats(*files.back(), plan_, measures_, outcomes_);
       files.back()->complete();
       write_repeats(*repeats_, plan_, measures_, outcomes_);
@@ -234,13 +234,23 @@ Variation variation_of(const ComparisonPlan& plan, size_t count, const function<
   return variation;
 }
 
+/// That of the first run with a scene: the runs of a sweep have that of its base.
+CsvDialect first_dialect(size_t count, const function<ComparedRun(size_t)>& run) {
+  for (size_t i = 0; i < count; ++i)
+    if (const optional<CsvDialect> dialect = dialect_of(run(i))) return *dialect;
+  return {};
+}
+
 }  // namespace
 
 vector<unique_ptr<OutputFile>> write_comparison(const FilePlace& place, const ComparisonPlan& plan, size_t count,
                                                 const function<ComparedRun(size_t)>& run,
                                                 const ComparisonWatch& watch) {
   check_charts(plan);
-  Comparison comparison(place, plan, count, variation_of(plan, count, run, watch));
+  ComparisonPlan own = plan;
+  own.dialect = first_dialect(count, run);
+
+  Comparison comparison(place, own, count, variation_of(own, count, run, watch));
   for (size_t i = 0; i < count; ++i) {
     watch.stop_check();
     comparison.add(i, run(i));

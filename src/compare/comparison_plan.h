@@ -1,6 +1,7 @@
 #pragma once
 // What is compared: runs, the values in which they differ, measures and charts.
 
+#include "files/csv_dialect.h"
 #include "run/measure.h"
 #include "std.h"
 
@@ -36,6 +37,7 @@ struct ComparisonPlan {
   vector<string> own{};
   /// Whether the workbook has a sheet with the first collisions of each run.
   bool collisions = false;
+  CsvDialect dialect{};  // of its tables
 };
 
 struct ComparedRun {

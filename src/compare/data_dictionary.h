@@ -2,8 +2,8 @@
 // Descriptions of the columns of a comparison.
 
 #include "compare/comparison_plan.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

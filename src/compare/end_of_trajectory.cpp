@@ -11,17 +11,16 @@ namespace carom {
 
 TrajectoryEnd end_of_trajectory(int folder) {
   constexpr const char* name = "trajectory.csv";
-  Descriptor head = open_stored(folder, name);
-  if (!head) throw ExportError("there is no trajectory.csv");
-  const StoredTable table(std::move(head));
+  Descriptor file = open_stored_table(folder, name);
+  if (!file) throw ExportError("there is no trajectory.csv");
+  const StoredTable table(std::move(file));
   const TrajectoryLayout layout(table);
 
-  const Descriptor file = open_stored(folder, name);
   TrajectoryEnd end;
   vector<string_view> cells;
-  string unquoted, instant;
-  lines_from_end(file.get(), [&](string_view line) {
-    split_cells(line, cells, unquoted);
+  string changed, instant;
+  lines_from_end(table.file(), [&](string_view line) {
+    split_cells(line, table.separator(), cells, changed);
     if (instant.empty()) instant = cells[0];
     if (cells[0] != instant) return false;
     layout.for_each(cells, [&](string_view body, size_t first) {

@@ -6,9 +6,9 @@
 
 #include <numeric>
 
-#include "compare/number_look.h"
 #include "files/csv.h"
 #include "std.h"
+#include "workbook/number_look.h"
 #include "yaml/values.h"
 
 namespace carom {

@@ -2,8 +2,8 @@
 // The results by what was varied: a point for each run, or for each scenario of repeated runs.
 
 #include "compare/comparison_plan.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

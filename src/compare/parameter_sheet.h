@@ -2,9 +2,9 @@
 // The sheet with what varies and with the common values of all runs.
 
 #include "compare/outcomes.h"
-#include "compare/workbook.h"
 #include "scene/scene_values.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

@@ -2,9 +2,9 @@
 // The table of runs of a page: a row for each run, with links into its folder.
 
 #include "compare/compared_run.h"
-#include "compare/number_look.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/number_look.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

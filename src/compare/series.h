@@ -3,8 +3,8 @@
 
 #include "compare/compared_run.h"
 #include "compare/scenarios.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

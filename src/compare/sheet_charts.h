@@ -3,8 +3,8 @@
 
 #include "compare/charts.h"
 #include "compare/series.h"
-#include "compare/workbook.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

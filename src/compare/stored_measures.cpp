@@ -68,7 +68,7 @@ const Measured* StoredMeasures::measured(const string& name) {
 }
 
 bool StoredMeasures::has_file(const char* name) const {
-  return stored_size(folder_, name).has_value();
+  return stored_table(folder_, name).has_value();
 }
 
 const Scene& StoredMeasures::scene() {
@@ -216,7 +216,7 @@ string StoredMeasures::second_body(string_view string) {
 }
 
 StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
-  StoredTable table(open_stored(folder_, "collisions.csv"));
+  StoredTable table(open_stored_table(folder_, "collisions.csv"));
   const auto time = table.find("time_s"), kind = table.find("kind"), a = table.find("a"), b = table.find("b");
   Meetings found{0, undefined};
   const bool named = measure.from.starts_with("let.") || measure.until.starts_with("let.");
@@ -240,7 +240,7 @@ StoredMeasures::Meetings StoredMeasures::meetings(const Measure& measure) {
 }
 
 StoredMeasures::Visits StoredMeasures::visits(const Measure& measure) {
-  StoredTable table(open_stored(folder_, "regions.csv"));
+  StoredTable table(open_stored_table(folder_, "regions.csv"));
   const auto time = table.find("time_s"), region = table.find("region"), body = table.find("body"),
              what = table.find("what");
   Visits found{0, 0, undefined, {}};

@@ -54,7 +54,7 @@ SummarySheet::SummarySheet(const FilePlace& place, Workbook& book, const Compari
       measures_(measures),
       columns_(make_columns(plan, measures)),
       sheet_(book.add("Summary", !is_table(count))),
-      table_(make_unique<OutputFile>(place, summary_name)) {}
+      table_(make_unique<OutputFile>(place, summary_name, plan.dialect)) {}
 
 void SummarySheet::write_heads() {
   CsvRow row(*table_);

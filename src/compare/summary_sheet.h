@@ -2,9 +2,9 @@
 // summary.csv with a row for each run, and the sheet Summary of it: parameters, measures, then what else differs.
 
 #include "compare/compared_run.h"
-#include "compare/workbook.h"
 #include "files/output_file.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 

@@ -13,12 +13,14 @@
 #include "export/png.h"
 #include "export/sheet.h"
 #include "export/tables.h"
+#include "export/tables_book.h"
 #include "export/writer_kinds.h"
 #include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/processors.h"
 #include "files/series_folders.h"
+#include "files/stored_file.h"
 #include "scene/film_layout.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
@@ -128,6 +130,17 @@ struct Exports::Impl {
     return any_of(output_kinds(), [&](const OutputKind& kind) {
       const bool has_charts = kind.series.folder == plot_files.folder || kind.has_file(page_name);
       return has_charts && kind.asked(scene.output) && !keeps(kind);
+    });
+  }
+
+  /// Null: the scene requests none. `written`: the complete files, under their temporary names.
+  unique_ptr<OutputFile> write_workbook(const vector<OutputFile*>& written) const {
+    const FilePlace& place = folder->place();
+    return write_tables_workbook(place, scene.output.tables, scene.title, [&](const string& name) {
+      const auto has_name = [&](const auto& record) { return record.name == name; };
+      if (any_of(written, [&](const OutputFile* file) { return has_name(file->record()); }))
+        return open_stored(place.folder, part_name(name));
+      return any_of(kept, has_name) ? open_stored(place.folder, name) : Descriptor();
     });
   }
 
@@ -275,6 +288,13 @@ uint64_t Exports::planned_frames() const {
   return planned;
 }
 
+vector<TableSize> Exports::table_sizes() const {
+  vector<TableSize> sizes;
+  for (const Writer* writer : impl_->writers())
+    if (const optional<TableSize> size = writer->size()) sizes.push_back(*size);
+  return sizes;
+}
+
 vector<LeftOut> Exports::left_out() const {
   vector<LeftOut> left_out;
   for (const Writer* writer : impl_->writers())
@@ -290,7 +310,7 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
   vector<OutputFile*> files;
 
   // Write all bytes of all files, including the manifest, under temporary names.
-  OutputFile summary_file(place, "summary.csv");
+  OutputFile summary_file(place, "summary.csv", CsvDialect(impl_->scene.output.tables));
   write_summary(summary_file, summary);
   files.push_back(&summary_file);
 
@@ -310,6 +330,12 @@ void Exports::finish(const Summary& summary, const RunFacts& facts) {
     file->complete();
     records.push_back(file->record());
     if (file == &summary_file) records.insert(records.end(), impl_->kept.begin(), impl_->kept.end());
+  }
+
+  const unique_ptr<OutputFile> workbook = impl_->write_workbook(files);
+  if (workbook) {
+    files.push_back(workbook.get());
+    records.push_back(workbook->record());
   }
 
   if (impl_->film) {

@@ -80,6 +80,8 @@ class Exports {
   /// As many as there will be, as far as is known: a film that slows down is longer once that is.
   uint64_t planned_frames() const;
 
+  /// The sizes of the tables, after all parts have ended.
+  vector<TableSize> table_sizes() const;
   /// The files that were given up, after all parts have ended.
   vector<LeftOut> left_out() const;
   /// Completes every file, then renames all of them. summary.csv is included, and manifest.json is last.

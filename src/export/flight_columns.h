@@ -6,7 +6,7 @@
 // deflated.
 #include <bit>
 
-#include "export/deflation.h"
+#include "files/deflation.h"
 #include "std.h"
 
 namespace carom {

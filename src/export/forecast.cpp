@@ -16,6 +16,9 @@
 namespace carom {
 namespace {
 
+// Bytes of tables, by those in CSV.
+constexpr double gzip_share = 0.4, workbook_share = 0.7;
+
 // Bytes of pictures, measured with scenes/*.yaml. Bodies have more of them than the ground and the sky.
 
 // Of a pixel of a rendered picture as PNG: in 1280 x 720 from 0.07 with 1 body to 0.41 with 200.
@@ -67,6 +70,13 @@ double png_bytes(double area, double bodies) {
   return area * min(png_pixel_bytes + png_body_bytes * sqrt(bodies), png_most_bytes);
 }
 
+/// What is written of a table, as a part of its bytes in CSV.
+double share_of_bytes(const TablesOutput& tables, const OutputKind& kind) {
+  if (!kind.files.ends_with(".csv")) return 1;
+  if (tables.format == TablesOutput::Format::gzip) return gzip_share;
+  return tables.format == TablesOutput::Format::xlsx ? 1 + workbook_share : 1;
+}
+
 /// Of one picture.
 double film_bytes(const VideoOutput& video, double area, double bodies) {
   const double of_bodies = min(bodies * film_body_bytes * sqrt(area), area * film_most_bytes);
@@ -88,7 +98,8 @@ double film_bytes(const VideoOutput& video, double area, double bodies) {
 Forecast forecast(const Scene& scene) {
   const Output& output = scene.output;
   const double bodies = scene.world.body_count(), duration = scene.simulate.duration;
-  double rows = 0, frames = 0, bytes = double(scene.resolved.size()) + 2000;
+  double frames = 0, bytes = double(scene.resolved.size()) + 2000;
+  vector<TableSize> tables;
 
   const auto instants = [&](const OutputKind& kind) {
     return kind.is_sampled() ? double(Ticks::every(kind.every(output), duration).count()) : 0;
@@ -96,8 +107,10 @@ Forecast forecast(const Scene& scene) {
 
   for (const OutputKind& kind : output_kinds()) {
     if (!kind.asked(output)) continue;
-    if (const WriterKind* writer = writer_named(kind.name)) bytes += writer->bytes(scene, instants(kind));
-    if (kind.name == "trajectory") rows += instants(kind) * rows_of(*output.trajectory, bodies);
+    const WriterKind* const writer = writer_named(kind.name);
+    if (writer == nullptr) continue;
+    bytes += writer->bytes(scene, instants(kind)) * share_of_bytes(output.tables, kind);
+    if (writer->size != nullptr) tables.push_back(writer->size(scene, instants(kind)));
   }
 
   // The pictures.
@@ -118,7 +131,7 @@ Forecast forecast(const Scene& scene) {
     if (plan.uses[i].film) bytes += (count + cards) * film_bytes(*output.video, area, bodies);
     if (plan.uses[i].film && output.video->sound) bytes += (count + cards) / output.video->fps * sound_bytes;
   }
-  return {whole(rows), whole(frames), whole(bytes), seconds};
+  return {whole(frames), whole(bytes), seconds, std::move(tables)};
 }
 
 }  // namespace carom

@@ -1,7 +1,7 @@
 #pragma once
 // Pictures as PNG.
 
-#include "export/deflation.h"
+#include "files/deflation.h"
 #include "render/image.h"
 #include "std.h"
 

@@ -2,8 +2,6 @@
 // Formatting dominates the cost of a long table, so the simulation only copies numbers.
 #include "export/tables.h"
 
-#include <fmt/format.h>
-
 #include <numeric>
 
 #include "export/bodies.h"
@@ -11,15 +9,17 @@
 #include "files/summary_columns.h"
 #include "physics/energy.h"
 #include "physics/world.h"
+#include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
 
 namespace carom {
 namespace {
 
+constexpr string_view long_heads = "time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n";
 constexpr array<string_view, 6> motion_columns = {"x_m", "y_m", "z_m", "vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
 
-/// The maximum number of characters of six numbers, each after a comma.
+/// The maximum number of characters of six numbers, each after a separator.
 constexpr size_t motion_size = 6 * (number_size + 1);
 
 /// Rows of a block: enough to make passing it on negligible, and few enough to stay in cache.
@@ -28,16 +28,35 @@ constexpr size_t block_rows = 4096;
 /// From the second block on, formatting happens on a thread.
 constexpr uint64_t blocks_alone = 1;
 
-char* put_motion(char* to, const Vec3& position, const Vec3& velocity) {
-  for (int axis = 0; axis < 3; ++axis) {
-    *to++ = ',';
-    to = put_number(to, position[axis]);
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    *to++ = ',';
-    to = put_number(to, velocity[axis]);
-  }
+/// The dialect of most tables, known where their many numbers are formatted.
+struct UsualDialect {
+  static constexpr char separator = ',';
+};
+
+char* put_cell(char* to, double value, UsualDialect) {
+  return put_number(to, value);
+}
+char* put_cell(char* to, double value, CsvDialect dialect) {
+  return put_number(to, value, dialect);
+}
+
+/// Writes a separator and a number.
+template <typename Dialect>
+char* put_next(char* to, double value, Dialect dialect) {
+  *to++ = dialect.separator;
+  return put_cell(to, value, dialect);
+}
+
+template <typename Dialect>
+char* put_motion(char* to, const Vec3& position, const Vec3& velocity, Dialect dialect) {
+  for (int axis = 0; axis < 3; ++axis) to = put_next(to, position[axis], dialect);
+  for (int axis = 0; axis < 3; ++axis) to = put_next(to, velocity[axis], dialect);
   return to;
+}
+
+/// Writes the first cell of a row.
+void write_time(OutputFile& file, double time) {
+  file.written(put_number(file.room(number_size), time, file.dialect()));
 }
 
 /// The bodies that have rows in trajectory.csv.
@@ -48,9 +67,10 @@ vector<Entity> bodies_in_rows(const Scene& scene) {
   return all;
 }
 
-/// Writes a comma and the name of a body, fixed thing or string. The cell of no_entity is empty.
+/// Writes a separator and the name of a body, fixed thing or string. The cell of no_entity is empty.
 void write_name(OutputFile& file, const Roster& roster, Entity bodies, Entity entity) {
-  file.write(",");
+  const char separator = file.dialect().separator;
+  file.write({&separator, 1});
   if (entity < bodies) {
     const BodyRange& range = roster.range_of(entity);
     file.written(put_member(file.room(range.name.size() + member_size), range, entity));
@@ -87,22 +107,39 @@ optional<CollisionKind> collision_kind_named(string_view name) {
   return nullopt;
 }
 
-TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
-    : scene_(scene),
-      bodies_(bodies_in_rows(scene)),
-      file_(place, "trajectory.csv"),
-      blocks_([this](Block& block) { write(block); }, blocks_alone) {
-  if (!scene.output.trajectory->wide) {
-    file_.write("time_s,body,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s\n");
-    return;
-  }
+TableWriter::TableWriter(const FilePlace& place, const Scene& scene, string name, string_view heads)
+    : name_(std::move(name)),
+      columns_(1 + uint64_t(ranges::count(heads, ','))),
+      file_(place, table_file(scene.output.tables, name_ + ".csv"), CsvDialect(scene.output.tables)),
+      separator_(file_.dialect().separator) {
+  string row(heads);
+  ranges::replace(row, ',', separator_);
+  file_.write(row);
+}
 
-  file_.write("time_s");
+void TableWriter::keep(StateWriter& archive) {
+  archive(rows_);
+  Writer::keep(archive);
+}
+
+void TableWriter::keep(StateReader& archive) {
+  archive(rows_);
+  Writer::keep(archive);
+}
+
+TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
+    : TableWriter(place, scene, "trajectory", scene.output.trajectory->wide ? "time_s" : long_heads),
+      scene_(scene),
+      bodies_(bodies_in_rows(scene)),
+      blocks_([this](Block& block) { write(block); }, blocks_alone) {
+  if (!scene.output.trajectory->wide) return;
+
+  columns_ += bodies_.size() * motion_columns.size();
   for (const Entity body : bodies_) {
     const BodyRange& range = scene.roster.range_of(body);
     for (const string_view column : motion_columns) {
       char* to = file_.room(range.name.size() + member_size + column.size() + 2);
-      *to++ = ',';
+      *to++ = separator_;
       to = put_member(to, range, body);
       *to++ = '.';
       file_.written(put_text(to, column));
@@ -114,6 +151,7 @@ TrajectoryTable::TrajectoryTable(const FilePlace& place, const Scene& scene)
 void TrajectoryTable::add(double time, const State& state, span<const ContactForce>) {
   constexpr double none = numeric_limits<double>::quiet_NaN();
   const auto bodies = Entity(bodies_.size());
+  rows_ += scene_.output.trajectory->wide ? 1 : bodies;
 
   Entity first = 0;
   do {
@@ -125,7 +163,9 @@ void TrajectoryTable::add(double time, const State& state, span<const ContactFor
     // Of a body that is gone there is no row.
     for (const Entity body : span(bodies_).subspan(first, part.count)) {
       block.motions.push_back({state.position[body], state.velocity[body]});
-      if (is_gone(state, body)) block.motions.back().position.x() = none;
+      if (!is_gone(state, body)) continue;
+      block.motions.back().position.x() = none;
+      if (!scene_.output.trajectory->wide) --rows_;
     }
 
     first += part.count;
@@ -140,23 +180,32 @@ vector<OutputFile*> TrajectoryTable::files() {
 }
 
 void TrajectoryTable::write(Block& block) {
-  const Motion* motion = block.motions.data();
-  for (const Part& part : block.parts) {
-    if (scene_.output.trajectory->wide)
-      write_wide(part, motion);
-    else
-      write_long(part, motion);
-    motion += part.count;
-  }
+  if (file_.dialect() == CsvDialect())
+    write(block, UsualDialect());
+  else
+    write(block, file_.dialect());
   block.parts.clear();
   block.motions.clear();
 }
 
-void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
+template <typename Dialect>
+void TrajectoryTable::write(const Block& block, Dialect dialect) {
+  const Motion* motion = block.motions.data();
+  for (const Part& part : block.parts) {
+    if (scene_.output.trajectory->wide)
+      write_wide(part, motion, dialect);
+    else
+      write_long(part, motion, dialect);
+    motion += part.count;
+  }
+}
+
+template <typename Dialect>
+void TrajectoryTable::write_long(const Part& part, const Motion* motion, Dialect dialect) {
   if (part.count == 0) return;
   // All bodies share the digits of the time, which are formatted once and copied.
   char time_text[number_size];
-  const string_view time_cell(time_text, size_t(put_number(time_text, part.time) - time_text));
+  const string_view time_cell(time_text, size_t(put_cell(time_text, part.time, dialect) - time_text));
 
   const BodyRange* range = &scene_.roster.range_of(bodies_[part.first]);
   for (const Entity body : span(bodies_).subspan(part.first, part.count)) {
@@ -166,36 +215,37 @@ void TrajectoryTable::write_long(const Part& part, const Motion* motion) {
 
     char* to = file_.room(number_size + range->name.size() + member_size + motion_size + 2);
     to = put_text(to, time_cell);
-    *to++ = ',';
+    *to++ = dialect.separator;
     to = put_member(to, *range, body);
-    to = put_motion(to, at.position, at.velocity);
+    to = put_motion(to, at.position, at.velocity, dialect);
     *to++ = '\n';
     file_.written(to);
   }
 }
 
-void TrajectoryTable::write_wide(const Part& part, const Motion* motion) {
-  if (part.first == 0) file_.written(put_number(file_.room(number_size), part.time));
+template <typename Dialect>
+void TrajectoryTable::write_wide(const Part& part, const Motion* motion, Dialect dialect) {
+  const string none(motion_columns.size(), separator_);
+  if (part.first == 0) write_time(file_, part.time);
   for (Entity i = 0; i < part.count; ++i, ++motion) {
     if (isfinite(motion->position.x()))
-      file_.written(put_motion(file_.room(motion_size), motion->position, motion->velocity));
+      file_.written(put_motion(file_.room(motion_size), motion->position, motion->velocity, dialect));
     else
-      file_.write(",,,,,,");
+      file_.write(none);
   }
   if (part.first + part.count == bodies_.size()) file_.write("\n");
 }
 
 CollisionTable::CollisionTable(const FilePlace& place, const Scene& scene)
-    : roster_(scene.roster),
+    : TableWriter(place, scene, "collisions",
+                  "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,"
+                  "impulse_N_s,energy_lost_J\n"),
+      roster_(scene.roster),
       bodies_(scene.world.body_count()),
-      file_(place, "collisions.csv"),
-      blocks_([this](vector<Collision>& collisions) { write(collisions); }, blocks_alone) {
-  file_.write(
-      "time_s,kind,a,b,x_m,y_m,z_m,nx,ny,nz,approach_speed_m_per_s,separation_speed_m_per_s,restitution,impulse_N_s,"
-      "energy_lost_J\n");
-}
+      blocks_([this](vector<Collision>& collisions) { write(collisions); }, blocks_alone) {}
 
 void CollisionTable::record(span<const Collision> collisions) {
+  rows_ += collisions.size();
   while (!collisions.empty()) {
     vector<Collision>& block = blocks_.item();
     const size_t count = min(block_rows - block.size(), collisions.size());
@@ -213,17 +263,17 @@ vector<OutputFile*> CollisionTable::files() {
 
 void CollisionTable::write(vector<Collision>& collisions) {
   for (const Collision& collision : collisions) {
-    file_.written(put_number(file_.room(number_size), collision.time));
-    file_.write(",");
+    write_time(file_, collision.time);
+    file_.write({&separator_, 1});
     file_.write(name_of(collision.kind));
     for (const Entity entity : {collision.a, collision.b}) write_name(file_, roster_, bodies_, entity);
 
-    char* to = put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal);
+    const CsvDialect dialect = file_.dialect();
+    char* to =
+        put_motion(file_.room(motion_size + 5 * (number_size + 1) + 1), collision.position, collision.normal, dialect);
     for (const double value : {collision.approach_speed, collision.separation_speed, collision.restitution,
-                               collision.impulse, collision.energy_lost}) {
-      *to++ = ',';
-      to = put_number(to, value);
-    }
+                               collision.impulse, collision.energy_lost})
+      to = put_next(to, value, dialect);
 
     *to++ = '\n';
     file_.written(to);
@@ -232,58 +282,59 @@ void CollisionTable::write(vector<Collision>& collisions) {
 }
 
 ContactTable::ContactTable(const FilePlace& place, const Scene& scene)
-    : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "contacts.csv") {
-  file_.write("time_s,a,b,force_N\n");
-}
+    : TableWriter(place, scene, "contacts", "time_s,a,b,force_N\n"),
+      roster_(scene.roster),
+      bodies_(scene.world.body_count()) {}
 
 void ContactTable::add(double time, const State&, span<const ContactForce> contacts) {
+  rows_ += contacts.size();
   for (const ContactForce& contact : contacts) {
-    file_.written(put_number(file_.room(number_size), time));
+    write_time(file_, time);
     for (const Entity entity : {contact.a, contact.b}) write_name(file_, roster_, bodies_, entity);
-    file_.write(",");
-    file_.written(put_number(file_.room(number_size), contact.force));
+    file_.written(put_next(file_.room(number_size + 1), contact.force, file_.dialect()));
     file_.write("\n");
   }
 }
 
 RegionTable::RegionTable(const FilePlace& place, const Scene& scene)
-    : roster_(scene.roster), bodies_(scene.world.body_count()), file_(place, "regions.csv") {
-  file_.write("time_s,region,body,what\n");
-}
+    : TableWriter(place, scene, "regions", "time_s,region,body,what\n"),
+      roster_(scene.roster),
+      bodies_(scene.world.body_count()) {}
 
 void RegionTable::record_crossings(span<const RegionCrossing> crossings) {
+  rows_ += crossings.size();
   for (const RegionCrossing& crossing : crossings) {
-    file_.written(put_number(file_.room(number_size), crossing.time));
-    file_.write(",");
+    write_time(file_, crossing.time);
+    file_.write({&separator_, 1});
     const bool appears = crossing.region == RegionCrossing::world;
     if (!appears) file_.write(roster_.regions[crossing.region]);
     write_name(file_, roster_, bodies_, crossing.body);
-    file_.write(appears ? ",appear\n" : crossing.enters ? ",enter\n" : ",leave\n");
+    file_.write({&separator_, 1});
+    file_.write(appears ? "appear\n" : crossing.enters ? "enter\n" : "leave\n");
   }
 }
 
-EnergyTable::EnergyTable(const FilePlace& place, const Scene& scene) : world_(scene.world), file_(place, "energy.csv") {
-  file_.write("time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n");
-}
+EnergyTable::EnergyTable(const FilePlace& place, const Scene& scene)
+    : TableWriter(place, scene, "energy",
+                  "time_s,kinetic_J,potential_J,total_J,px_kg_m_per_s,py_kg_m_per_s,pz_kg_m_per_s\n"),
+      world_(scene.world) {}
 
 void EnergyTable::add(double time, const State& state, span<const ContactForce>) {
   const double kinetic = kinetic_energy(world_, state);
   const double potential = potential_energy(world_, state);
   const Vec3 p = momentum(world_, state);
+  ++rows_;
   CsvRow row(file_);
   row.number(time).number(kinetic).number(potential).number(kinetic + potential);
   row.number(p.x()).number(p.y()).number(p.z()).end();
 }
 
 void write_summary(OutputFile& file, const Summary& s) {
-  string names;
-  for (const SummaryColumn& column : summary_columns())
-    names += fmt::format("{}{}", names.empty() ? "" : ",", column.name);
-  file.write(names);
-  for (const Measured& measure : s.measures) file.write("," + measure.name);
-  file.write("\n");
-
   CsvRow row(file);
+  for (const SummaryColumn& column : summary_columns()) row.text(column.name);
+  for (const Measured& measure : s.measures) row.text(measure.name);
+  row.end();
+
   for (const SummaryColumn& column : summary_columns()) {
     const auto value = column.value(s);
     if (const auto* text = std::get_if<string_view>(&value))

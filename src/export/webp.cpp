@@ -21,7 +21,7 @@ string_view bytes_at(int file, uint64_t place, array<char, size>& bytes) {
 }
 
 /// The least significant byte first.
-uint64_t number_in(string_view bytes) {
+uint64_t little_endian(string_view bytes) {
   uint64_t number = 0;
   for (size_t i = bytes.size(); i-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[i]);
   return number;
@@ -45,12 +45,12 @@ optional<uint64_t> webp_frames(const FilePlace& place, const string& name, doubl
     const string_view chunk = bytes_at(file.get(), at, bytes);
     if (chunk.size() < chunk_head) return 0;
     const string_view type = chunk.substr(0, 4);
-    const uint64_t length = number_in(chunk.substr(4, 4));
+    const uint64_t length = little_endian(chunk.substr(4, 4));
     if (length > *size - at - chunk_head) return 0;
 
     if (type == "ANMF" && chunk.size() == bytes.size()) {
       ++animated;
-      milliseconds += number_in(chunk.substr(chunk_head + duration_at, 3));
+      milliseconds += little_endian(chunk.substr(chunk_head + duration_at, 3));
     }
     if (type == "VP8 " || type == "VP8L") ++still;
     at += chunk_head + length + length % 2;

@@ -33,6 +33,8 @@ class Writer {
   virtual void add(double, const State&, span<const ContactForce>) {}
   /// Ends the run.
   virtual void end(const Tally&) {}
+  /// How large its table is so far. None: it writes no table.
+  virtual optional<TableSize> size() const { return nullopt; }
   /// The files that this output has given up.
   virtual vector<LeftOut> left_out() const { return {}; }
   /// Its files with all their bytes, not yet complete. Called after end().

@@ -8,6 +8,7 @@
 #include "export/tables.h"
 #include "export/vtk.h"
 #include "export/xyz.h"
+#include "numerics/whole.h"
 #include "physics/world.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -40,6 +41,10 @@ constexpr double plots_bytes = 3e5;
 // index.html: 60 kB for ten_pins.
 constexpr double report_bytes = 6e4;
 
+uint64_t nearest_count(double x) {
+  return uint64_t(max<int64_t>(nearest_whole(x), 0));
+}
+
 template <typename Table>
 unique_ptr<Writer> open(FolderWriter& folder, const Scene& scene, const ModelMakers&) {
   return make_unique<Table>(folder.place(), scene);
@@ -51,12 +56,27 @@ double trajectory_bytes(const Scene& scene, double instants) {
                                        : rows * (motion_bytes + time_bytes + name_bytes);
 }
 
+TableSize trajectory_size(const Scene& scene, double instants) {
+  const World& world = scene.world;
+  const TrajectoryOutput& output = *scene.output.trajectory;
+  const double bodies = rows_of(output, world.body_count());
+  if (output.wide) return {"trajectory", nearest_count(instants), 1 + 6 * nearest_count(bodies), may_stop(scene)};
+
+  const bool bodies_vary = scene.simulate.contact.merge || !world.appears.empty() ||
+                           any_of(world.regions, [](const WorldRegion& region) { return region.removes; });
+  return {"trajectory", nearest_count(instants * bodies), 8, may_stop(scene) || bodies_vary};
+}
+
+TableSize energy_size(const Scene& scene, double instants) {
+  return {"energy", nearest_count(instants), 7, may_stop(scene)};
+}
+
 constexpr WriterKind all_kinds[] = {
-    {"trajectory", open<TrajectoryTable>, trajectory_bytes},
+    {"trajectory", open<TrajectoryTable>, trajectory_bytes, trajectory_size},
     // The number of collisions is unknown. One for each body is assumed.
     {"collisions", open<CollisionTable>,
      [](const Scene& scene, double) { return collision_bytes * scene.world.body_count(); }},
-    {"energy", open<EnergyTable>, [](const Scene&, double instants) { return energy_bytes * instants; }},
+    {"energy", open<EnergyTable>, [](const Scene&, double instants) { return energy_bytes * instants; }, energy_size},
     // The number of contacts is unknown. Half of the bodies are assumed to be at rest always.
     {"contacts", open<ContactTable>,
      [](const Scene& scene, double instants) { return contact_bytes * instants * scene.world.body_count() / 2; }},
@@ -77,7 +97,7 @@ constexpr WriterKind all_kinds[] = {
      [](FolderWriter& folder, const Scene& scene, const ModelMakers& makers) -> unique_ptr<Writer> {
        return make_unique<GltfWriter>(folder, scene, makers);
      },
-     GltfWriter::bytes, nullptr, frames_motion},
+     GltfWriter::bytes, nullptr, nullptr, frames_motion},
     // The number of pieces is unknown. Three for each body are assumed.
     {"flights", open<FlightsFile>,
      [](const Scene& scene, double) { return 3 * path_bytes * scene.world.body_count(); }},
@@ -85,12 +105,12 @@ constexpr WriterKind all_kinds[] = {
      [](FolderWriter& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
        return make_unique<PlotsWriter>(folder, scene);
      },
-     [](const Scene&, double) { return plots_bytes; }, PlotsWriter::ticks, may_stop},
+     [](const Scene&, double) { return plots_bytes; }, nullptr, PlotsWriter::ticks, may_stop},
     {"report",
      [](FolderWriter& folder, const Scene& scene, const ModelMakers&) -> unique_ptr<Writer> {
        return make_unique<ReportWriter>(folder, scene);
      },
-     [](const Scene&, double) { return report_bytes; }, PlotsWriter::ticks, may_stop},
+     [](const Scene&, double) { return report_bytes; }, nullptr, PlotsWriter::ticks, may_stop},
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ struct WriterKind {
   unique_ptr<Writer> (*open)(FolderWriter& folder, const Scene& scene, const ModelMakers& makers);
   /// An estimate of the bytes of all its files at this number of instants.
   double (*bytes)(const Scene& scene, double instants);
+  /// The rows and columns of its table at this number of instants. Null: it has none, or its rows are not known ahead.
+  TableSize (*size)(const Scene& scene, double instants) = nullptr;
   /// The instants at which it takes states, if not those of OutputKind::every.
   vector<Ticks> (*ticks)(const Scene& scene) = nullptr;
   /// Whether it needs something of the whole motion at its first state: the run's end, or a camera that frames all.

@@ -6,11 +6,11 @@
 
 namespace carom {
 
-string text_cell(string_view text) {
+string text_cell(string_view text, CsvDialect dialect) {
   string cell;
   if (!text.empty() && string_view("=+-@\t\r").find(text.front()) != string_view::npos) cell += '\'';
   cell += text;
-  if (cell.find_first_of(",\"\r\n") == string::npos) return cell;
+  if (cell.find_first_of(",\"\r\n") == string::npos && cell.find(dialect.separator) == string::npos) return cell;
   string quoted = "\"";
   for (const char c : cell) {
     if (c == '"') quoted += '"';
@@ -20,19 +20,20 @@ string text_cell(string_view text) {
 }
 
 void CsvRow::separate() {
-  if (!first_) file_.write(",");
+  const char separator = file_.dialect().separator;
+  if (!first_) file_.write({&separator, 1});
   first_ = false;
 }
 
 CsvRow& CsvRow::text(string_view text) {
   separate();
-  file_.write(text_cell(text));
+  file_.write(text_cell(text, file_.dialect()));
   return *this;
 }
 
 CsvRow& CsvRow::number(double value) {
   separate();
-  file_.written(put_number(file_.room(number_size), value));
+  file_.written(put_number(file_.room(number_size), value, file_.dialect()));
   return *this;
 }
 

@@ -36,7 +36,12 @@ void add_files(vector<string>& names, const optional<Manifest>& manifest) {
 
 /// Adds the files that an interrupted run of this scene may have left without a manifest that names them.
 void add_remains(vector<string>& names, int folder, const Scene& scene) {
-  for (string& name : run_files(scene, with_all(scene.output))) names.push_back(std::move(name));
+  Output all = with_all(scene.output);
+  using Format = TablesOutput::Format;
+  for (const Format format : {Format::csv, Format::gzip, Format::xlsx}) {
+    all.tables.format = format;
+    for (string& name : run_files(scene, all)) names.push_back(std::move(name));
+  }
   names.insert(names.end(), bench_files.begin(), bench_files.end());
   SeriesFolders folders(folder);
   for (const string& series : series_folder_names())

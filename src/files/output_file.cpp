@@ -36,6 +36,11 @@ OutputFile::OutputFile(const FilePlace& place, string name)
   open_part();
 }
 
+OutputFile::OutputFile(const FilePlace& place, string name, CsvDialect dialect) : OutputFile(place, std::move(name)) {
+  dialect_ = dialect;
+  if (record_.name.ends_with(gzip_ending)) gzip_.emplace();
+}
+
 void OutputFile::open_part() {
   // What an interrupted run has left is no link, and has no other name.
   struct stat info {};
@@ -89,15 +94,23 @@ void OutputFile::flush() {
 }
 
 void OutputFile::put(const Piece& piece) {
-  if (has_name_) hash_.add({piece.bytes.data(), piece.used});
-  for (size_t done = 0; done < piece.used;) {
-    const ssize_t n = ::write(file_.get(), piece.bytes.data() + done, piece.used - done);
+  const string_view bytes(piece.bytes.data(), piece.used);
+  if (gzip_)
+    gzip_->add(bytes, [this](string_view packed) { put_bytes(packed); });
+  else
+    put_bytes(bytes);
+}
+
+void OutputFile::put_bytes(string_view bytes) {
+  if (has_name_) hash_.add(bytes);
+  for (size_t done = 0; done < bytes.size();) {
+    const ssize_t n = ::write(file_.get(), bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) fail("write", place_, record_.name);
     done += size_t(n);
   }
 
-  record_.bytes += piece.used;
+  record_.bytes += bytes.size();
   if (const uint64_t more = record_.bytes - on_the_way_; more >= early_size) {
     // If the file system does not support this, the sync at the end does all of it.
     sync_file_range(file_.get(), off_t(on_the_way_), off_t(more), SYNC_FILE_RANGE_WRITE);
@@ -113,7 +126,7 @@ void OutputFile::drain() {
 WrittenPart OutputFile::pause() {
   drain();
   hand_over();
-  return {record_.bytes, Sha256(hash_).hex()};
+  return {record_.bytes, Sha256(hash_).hex(), gzip_ ? gzip_->rest() : string()};
 }
 
 void OutputFile::go_on(const WrittenPart& part) {
@@ -134,6 +147,7 @@ void OutputFile::go_on(const WrittenPart& part) {
     record_.bytes += size_t(n);
   }
   if (Sha256(hash_).hex() != part.sha256) throw ArchiveError();
+  if (gzip_) gzip_->set_rest(part.rest);
 
   on_the_way_ = record_.bytes;
   if (lseek(file_.get(), off_t(record_.bytes), SEEK_SET) < 0) fail("write", place_, record_.name);
@@ -142,6 +156,7 @@ void OutputFile::go_on(const WrittenPart& part) {
 void OutputFile::complete() {
   if (!file_) return;
   drain();
+  if (gzip_) gzip_->end([this](string_view packed) { put_bytes(packed); });
   if (!has_name_) return;
   // An interrupted run may have written more.
   if (place_.goes_on && ftruncate(file_.get(), off_t(record_.bytes)) != 0) fail("write", place_, record_.name);

@@ -2,6 +2,8 @@
 // A file that appears complete or not at all: written under a temporary name, hashed on the way, then renamed.
 
 #include "files/conveyor.h"
+#include "files/csv_dialect.h"
+#include "files/gzip.h"
 #include "files/hash.h"
 #include "files/part_file.h"
 #include "std.h"
@@ -12,8 +14,9 @@ namespace carom {
 struct WrittenPart {
   uint64_t bytes = 0;
   string sha256;
+  string rest{};  // of a compressed file, what is not yet compressed
 
-  void keep(auto& archive) { archive(bytes, sha256); }
+  void keep(auto& archive) { archive(bytes, sha256, rest); }
 };
 
 /// Writes are hashed and passed to the system in large pieces. A long file does this on a background thread.
@@ -21,9 +24,12 @@ class OutputFile : public PartFile {
  public:
   /// Opens `.name.part` in the folder. `name` must be plain. Throws ExportError, as all functions of this class do.
   OutputFile(const FilePlace& place, string name);
+  /// The same of a table in a dialect. Where the name ends in .gz, what is written is compressed on the way.
+  OutputFile(const FilePlace& place, string name, CsvDialect dialect);
   /// Writes to a file without a name (part_file.h), which is not published.
   OutputFile(const FilePlace& place, Descriptor nameless);
 
+  CsvDialect dialect() const { return dialect_; }
   void write(string_view bytes);
   /// Room to write `size` bytes in place. A call of written(end) then gives the end of the bytes written.
   char* room(size_t size) {
@@ -57,7 +63,10 @@ class OutputFile : public PartFile {
   void flush();
   void make_room(size_t size);
   void put(const Piece& piece);
+  void put_bytes(string_view bytes);
 
+  CsvDialect dialect_;
+  optional<GzipMembers> gzip_;
   Descriptor file_;
   const bool has_name_;
   Sha256 hash_;

@@ -6,6 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <filesystem>
+
+#include "files/folders.h"
+#include "files/gzip.h"
 
 #include "std.h"
 
@@ -37,6 +41,40 @@ Descriptor open_stored(int folder, const string& name) {
   if (file && fstat(file.get(), &info) != 0) fail("read", place_of(folder), name);
   if (file && !S_ISREG(info.st_mode)) file.reset();
   return file;
+}
+
+optional<string> stored_table(int folder, const string& name) {
+  for (const string& stored : {name, name + string(gzip_ending)})
+    if (stored_size(folder, stored)) return stored;
+  return nullopt;
+}
+
+Descriptor open_stored_table(int folder, const string& name) {
+  if (Descriptor file = open_stored(folder, name)) return file;
+  const string packed = name + string(gzip_ending);
+  const Descriptor file = open_stored(folder, packed);
+  if (!file) return Descriptor();
+
+  const FilePlace place = place_of(folder);
+  Descriptor table;
+  try {
+    table = nameless_file(place);
+  } catch (const ExportError&) {
+    const string temporary = std::filesystem::temp_directory_path().string();
+    const Descriptor other = open_folder(AT_FDCWD, temporary, true);
+    if (!other) throw;
+    table = nameless_file({other.get(), temporary});
+  }
+
+  unpack_gzip(file.get(), table.get(), place, packed);
+  if (lseek(table.get(), 0, SEEK_SET) != 0) fail("read", place, packed);
+  return table;
+}
+
+uint64_t file_size(int file) {
+  struct stat info {};
+  if (fstat(file, &info) != 0) fail("read", place_of(file), "");
+  return uint64_t(info.st_size);
 }
 
 optional<uint64_t> stored_size(int folder, const string& name) {

@@ -13,6 +13,16 @@ size_t read_some(int file, char* to, size_t size);
 /// Throws ExportError on other errors, as all functions below do.
 Descriptor open_stored(int folder, const string& name);
 
+/// The name of a stored table: `name`, or with the ending .gz that of the compressed one. None: there is neither.
+optional<string> stored_table(int folder, const string& name);
+
+/// Opens a stored table for reading, at its start. Of a compressed one that is a temporary file without a name, in the
+/// same file system or, where nothing can be written there, among the system's temporary files. None if there is none.
+Descriptor open_stored_table(int folder, const string& name);
+
+/// The size of an open file in bytes.
+uint64_t file_size(int file);
+
 /// The size of a stored file in bytes.
 optional<uint64_t> stored_size(int folder, const string& name);
 

@@ -1,8 +1,8 @@
 // Reads CSV in pieces, so that tables of gigabytes need little memory.
-// Cells are views into the buffer. Quoted cells are copied without their quotes into a separate text.
+// Cells are views into the buffer. Cells with quotes or a decimal comma are copied, without
+// these, into a separate text.
 #include "files/stored_table.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,12 +30,6 @@ void read_at(int file, char* to, size_t size, uint64_t offset) {
   }
 }
 
-uint64_t size_of(int file) {
-  struct stat info {};
-  if (fstat(file, &info) != 0) fail("read", place_of(file), "");
-  return uint64_t(info.st_size);
-}
-
 }  // namespace
 
 optional<double> number_in(string_view cell) {
@@ -45,25 +39,41 @@ optional<double> number_in(string_view cell) {
   return value;
 }
 
-void split_cells(string_view line, vector<string_view>& cells, string& unquoted) {
+char separator_of(string_view head) {
+  // A name in quotes may have any characters.
+  const size_t name = head.starts_with('"') ? head.find('"', 1) : 0;
+  const size_t at = head.find_first_of(",;\t", min(name, head.size()));
+  return at == string_view::npos ? ',' : head[at];
+}
+
+void split_cells(string_view line, char separator, vector<string_view>& cells, string& changed) {
   cells.clear();
-  unquoted.clear();
+  changed.clear();
   // Reserve, so that views into it stay valid.
-  unquoted.reserve(line.size());
+  changed.reserve(line.size());
 
   for (size_t i = 0; i <= line.size();) {
     if (i < line.size() && line[i] == '"') {
-      const size_t from = unquoted.size();
+      const size_t from = changed.size();
       for (++i; i < line.size(); ++i) {
         if (line[i] == '"' && (i + 1 >= line.size() || line[++i] != '"')) break;
-        unquoted += line[i];
+        changed += line[i];
       }
 
-      cells.push_back(string_view(unquoted).substr(from));
-      i = min(line.find(',', min(i, line.size())), line.size()) + 1;
+      cells.push_back(string_view(changed).substr(from));
+      i = min(line.find(separator, min(i, line.size())), line.size()) + 1;
     } else {
-      const size_t end = min(line.find(',', i), line.size());
-      cells.push_back(line.substr(i, end - i));
+      const size_t end = min(line.find(separator, i), line.size());
+      string_view cell = line.substr(i, end - i);
+
+      // A decimal comma.
+      if (const size_t mark = separator == ',' ? cell.npos : cell.find(','); mark != cell.npos) {
+        const size_t from = changed.size();
+        changed += cell;
+        changed[from + mark] = '.';
+        cell = string_view(changed).substr(from);
+      }
+      cells.push_back(cell);
       i = end + 1;
     }
   }
@@ -72,7 +82,8 @@ void split_cells(string_view line, vector<string_view>& cells, string& unquoted)
 StoredTable::StoredTable(Descriptor file) : file_(std::move(file)) {
   string_view line;
   if (!read_line(line)) return;
-  split_cells(line, cells_, unquoted_);
+  separator_ = separator_of(line);
+  split_cells(line, separator_, cells_, changed_);
   columns_.assign(cells_.begin(), cells_.end());
 }
 
@@ -113,14 +124,14 @@ bool StoredTable::read_line(string_view& line) {
 const vector<string_view>* StoredTable::next() {
   string_view line;
   if (!read_line(line)) return nullptr;
-  split_cells(line, cells_, unquoted_);
+  split_cells(line, separator_, cells_, changed_);
   return &cells_;
 }
 
 void lines_from_end(int file, const function<bool(string_view line)>& take) {
   // The text from `at` on, without the lines already passed to `take`.
   string text;
-  uint64_t at = size_of(file);
+  uint64_t at = file_size(file);
   while (at > 0) {
     // Put another piece in front.
     const size_t size = size_t(min<uint64_t>(at, max(piece_size, text.size())));

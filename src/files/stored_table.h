@@ -1,5 +1,6 @@
 #pragma once
-// Reads CSV tables as written by this program, row by row from the start or from the end.
+// Reads CSV tables as written by this program, row by row from the start or from the end. The first row tells the
+// separator. Numbers are given with a decimal point, whatever mark they have in the file.
 
 #include "files/output_file.h"
 #include "std.h"
@@ -12,6 +13,9 @@ class StoredTable {
   /// `file`: an open file. Its first row is read as the names of columns. An empty file has none.
   explicit StoredTable(Descriptor file);
 
+  /// The open file, read up to somewhere.
+  int file() const { return file_.get(); }
+  char separator() const { return separator_; }
   const vector<string>& columns() const { return columns_; }
   /// The index of a column, or none.
   optional<size_t> find(string_view column) const;
@@ -27,9 +31,10 @@ class StoredTable {
   bool read_line(string_view& line);
 
   Descriptor file_;
+  char separator_ = ',';
   vector<string> columns_;
   vector<string_view> cells_;
-  string buffer_, unquoted_;
+  string buffer_, changed_;
   size_t begin_ = 0;
   bool ended_ = false;
 };
@@ -38,8 +43,12 @@ class StoredTable {
 /// Works for tables without quotes, such as the trajectory. Only the end of a file of gigabytes is read.
 void lines_from_end(int file, const function<bool(string_view line)>& take);
 
-/// Splits a line into cells. `unquoted` holds the text of quoted cells and must outlive the cells.
-void split_cells(string_view line, vector<string_view>& cells, string& unquoted);
+/// The separator of a table with this first line: what follows the name of its first column.
+char separator_of(string_view head);
+
+/// Splits a line into cells. `changed` holds the text of cells that had quotes or a decimal comma, and must outlive the
+/// cells. Only where the separator is no comma, a comma without quotes is a decimal mark.
+void split_cells(string_view line, char separator, vector<string_view>& cells, string& changed);
 
 /// The number in a cell, if the whole cell is one.
 optional<double> number_in(string_view cell);

@@ -68,6 +68,13 @@ struct LeftOut {
   string name, why;
 };
 
+/// How large a table is, heads not counted.
+struct TableSize {
+  string name;  // of the output: "trajectory"
+  uint64_t rows = 0, columns = 0;
+  bool is_bound = false;  // ahead of a run: it may have fewer rows
+};
+
 /// How long a run has lasted.
 struct RunLength {
   double duration = 0;  // s
@@ -111,6 +118,7 @@ struct RunFacts {
   SceneOrigin origin{};
   vector<Measured> measures{};
   vector<LeftOut> left_out{};
+  vector<TableSize> tables{};  // for the report
 };
 
 }  // namespace carom

@@ -86,8 +86,11 @@ FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFil
   return run;
 }
 
-bool FormerRun::has(string_view name) const {
-  return any_of(manifest.files, [&](const FileRecord& file) { return file.name == name; });
+const FileRecord* FormerRun::find(string_view name) const {
+  const string packed = string(name) + string(gzip_ending);
+  const auto found =
+      ranges::find_if(manifest.files, [&](const FileRecord& file) { return file.name == name || file.name == packed; });
+  return found == manifest.files.end() ? nullptr : &*found;
 }
 
 bool FormerRun::has_flights() const {

@@ -17,8 +17,9 @@ struct FormerRun {
   /// The bodies that have rows in its trajectory.csv, by its `on`. Empty: all have.
   string in_table;
 
-  /// Whether its manifest has a file of this name.
-  bool has(string_view file) const;
+  /// The file of this name in its manifest, or the compressed one of a table. Null: none.
+  const FileRecord* find(string_view file) const;
+  bool has(string_view file) const { return find(file) != nullptr; }
   /// Whether the run stored the paths of its bodies (export/flights_file.h).
   bool has_flights() const;
   /// The same, with its collisions (drawings_show_collisions), and their impulses if they sound. `drawn`: the scene to

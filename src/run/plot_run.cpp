@@ -3,12 +3,15 @@
 
 #include <fcntl.h>
 
+#include "export/tables_book.h"
+#include "files/folder_names.h"
 #include "files/folder_writer.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
 #include "files/run_folder.h"
 #include "files/series.h"
 #include "files/stored_file.h"
+#include "files/stored_table.h"
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
@@ -29,20 +32,21 @@ string text_of_run(const FormerRun& former, const char* name, uint64_t most) {
 }
 
 /// The end of the cell that begins at `from`.
-size_t cell_end(const string& text, size_t from) {
+size_t cell_end(const string& text, size_t from, char separator) {
   bool quoted = false;
   for (; from < text.size(); ++from) {
     if (text[from] == '"') quoted = !quoted;
-    if (!quoted && (text[from] == ',' || text[from] == '\n')) break;
+    if (!quoted && (text[from] == separator || text[from] == '\n')) break;
   }
   return from;
 }
 
 /// summary.csv of a run without pictures.
 string without_pictures(string summary) {
+  const char separator = separator_of(summary);
   size_t head = 0, row = summary.find('\n') + 1;
   while (head < summary.size()) {
-    const size_t head_end = cell_end(summary, head), row_end = cell_end(summary, row);
+    const size_t head_end = cell_end(summary, head, separator), row_end = cell_end(summary, row, separator);
     if (summary.compare(head, head_end - head, "frames") == 0) return summary.replace(row, row_end - row, "0");
     head = head_end + 1;
     row = row_end + 1;
@@ -73,6 +77,7 @@ class RunPlotter {
 
     // Another folder gets the run's totals too.
     optional<OutputFile> summary;
+    unique_ptr<OutputFile> workbook;
     vector<PartFile*> files;
     if (!in_place_) {
       summary.emplace(folder.place(), "summary.csv");
@@ -80,6 +85,15 @@ class RunPlotter {
       summary->complete();
       records.push_back(summary->record());
       files.push_back(&*summary);
+
+      workbook = write_tables_workbook(
+          folder.place(), request_.scene->output.tables, request_.scene->title, [&](const string& name) {
+            return name == "summary.csv" ? open_stored(folder.place().folder, part_name(name)) : Descriptor();
+          });
+      if (workbook) {
+        records.push_back(workbook->record());
+        files.push_back(workbook.get());
+      }
     }
 
     Series series(folder, plot_files);

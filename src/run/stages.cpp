@@ -191,6 +191,7 @@ void Stages::finish(size_t i, const Simulated& done, RunResult& result) {
   result.facts.simulate_s = done.simulate_s;
   result.facts.peak_memory = peak_memory();
   result.facts.left_out = stage.exports.left_out();
+  result.facts.tables = stage.exports.table_sizes();
   take_measures(i, done, result);
   stage.exports.finish(result.summary, result.facts);
 }

@@ -26,8 +26,9 @@ namespace {
 
 constexpr const char* table_name = "trajectory.csv";
 
-string_view states_file(const FormerRun& run) {
-  return run.has_flights() ? flights_name : table_name;
+/// Null: it has none.
+const FileRecord* states_file(const FormerRun& run) {
+  return run.find(run.has_flights() ? flights_name : table_name);
 }
 
 /// A former run that stands ready to be read.
@@ -44,7 +45,8 @@ FormerRun opened(const string& folder, const LoadOptions& options) {
   load.mesh_points = options.mesh_points;
   SceneFile file(former_scene_file(folder), load);
   return read_former_run(folder, file, [](const FormerRun& run, string_view name) {
-    return name != states_file(run) && name != "summary.csv";
+    const FileRecord* const states = states_file(run);
+    return (states == nullptr || name != states->name) && name != "summary.csv";
   });
 }
 
@@ -86,7 +88,7 @@ State state_in_flights(const FormerRun& run, double at) {
 
 State state_in_table(const FormerRun& run, double at) {
   const Descriptor folder = open_folder(AT_FDCWD, run.folder, true);
-  Descriptor file = folder ? open_stored(folder.get(), table_name) : Descriptor();
+  Descriptor file = folder ? open_stored_table(folder.get(), table_name) : Descriptor();
   if (!file) throw StartError(fmt::format("{} is missing", table_name), "run it again");
 
   StoredTrajectory trajectory(std::move(file), run.scene);
@@ -132,8 +134,8 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
   if (lacks_impulses(run.scene, at.value_or(end)))
     throw StartError("the book's engine had not yet applied the impulses then", "expected a later `at`", true);
 
-  const string file(states_file(run));
-  if (!run.has(file))
+  const FileRecord* const file = states_file(run);
+  if (file == nullptr)
     throw StartError("it has neither flights nor a trajectory",
                      "run it with `output.flights: true`, or with `output.trajectory`");
   if (!run.has_flights() && !run.in_table.empty())
@@ -149,9 +151,8 @@ FormerState state_of(const FormerRun& run, optional<double> at) {
   for (Entity body = 0; body < part_of.size(); ++body) gone = gone || part_of[body] != body;
   former.has_merged = gone && run.scene.simulate.contact.merge;
 
-  former.file = file;
-  for (const FileRecord& record : run.manifest.files)
-    if (record.name == file) former.sha256 = record.sha256;
+  former.file = file->name;
+  former.sha256 = file->sha256;
   if (!run.manifest.warnings.empty()) former.doubt = run.manifest.warnings.front().text;
   return former;
 }

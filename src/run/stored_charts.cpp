@@ -110,7 +110,7 @@ class ChartReader {
 
   Descriptor file(const char* name) const {
     const Descriptor folder = open_folder(AT_FDCWD, former_.folder, true);
-    Descriptor opened = folder ? open_stored(folder.get(), name) : Descriptor();
+    Descriptor opened = folder ? open_stored_table(folder.get(), name) : Descriptor();
     if (!opened) throw ExportError(fmt::format("{}/{} is missing", former_.folder, name));
     return opened;
   }

@@ -150,10 +150,18 @@ constexpr AbsentWord all_words[] = {
     {"gif|webp|mp4|movie|film|animation",
      "A film is `output.video`. The ending of `video.file` chooses H.264, GIF or WebP.", "video|video.file"},
     {"csv|table|spreadsheet|excel|xlsx|data",
-     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`; `carom compare` puts runs into "
-     "a "
-     "workbook. A group may begin with the `table` of its balls.",
-     "output|groups.table"},
+     "Tables are `output.trajectory`, `collisions`, `energy`, `contacts` and `regions`. `output.tables` chooses how "
+     "they "
+     "are written: CSV, compressed, or also a workbook. `carom compare` puts runs into a workbook. A group may begin "
+     "with the `table` of its balls.",
+     "output|output.tables|groups.table"},
+    {"parquet|arrow table|feather|hdf5|netcdf|binary table|compact table|compression|compress|gzip|gz|zip|file format|"
+     "table format",
+     "There is no Parquet. `tables: csv.gz` in `output` is compact, and pandas and R read it as it is.",
+     "output.tables|tables.format"},
+    {"delimiter|semicolon|decimal comma|decimal point|decimal separator|locale|german|german excel|semicolon separated",
+     "`output.tables: {separator: \";\", decimal: \",\"}` writes CSV for spreadsheets with decimal commas.",
+     "output.tables|tables.separator|tables.decimal"},
     {"solver|physics engine|method|algorithm",
      "`simulate.engine` chooses the engine, `integrator` the method of its steps.", "engine|integrator"},
     {"time|length of run|end time|end|run time",

@@ -35,7 +35,8 @@ vector<Excess> excesses(const Output& output, double duration, double bodies, co
 
     const uint64_t most_rows = kind.in_memory ? budget.keys : budget.rows;
     if (rows > double(most_rows)) {
-      found.push_back({&kind, rows, string(kind.rows), most_rows});
+      const bool wide = kind.name == "trajectory" && output.trajectory->wide;
+      found.push_back({&kind, rows, wide ? "motions of bodies in trajectory.csv" : string(kind.rows), most_rows});
     } else if (!kind.series.folder.empty() && instants > double(budget.files)) {
       found.push_back({&kind, instants, fmt::format("files in {}/", kind.series.folder), budget.files});
     }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/absent_words.h"
 #include "scene/colors.h"
 #include "std.h"
 #include "yaml/values.h"
@@ -28,6 +29,11 @@ bool means_none(string_view text) {
   for (const char* word : {"None", "NONE", "transparent", "Transparent", "clear", "no"})
     if (text == word) return true;
   return false;
+}
+
+/// Whether a path such as tables.format ends in this key.
+bool is_end_of(string_view path, string_view key) {
+  return path.size() > key.size() && path.ends_with(key) && path[path.size() - key.size() - 1] == '.';
 }
 
 }  // namespace
@@ -144,6 +150,12 @@ void ValueChecker::choice(Node& value, const Field& field, const string& name) {
     refuse(value, std::move(complaint.message), std::move(complaint.remedy));
     return;
   }
+
+  // A word that other programs have, and that leads to this key.
+  const AbsentWord* const known = find_absent_word(value.text);
+  if (known != nullptr && any_of(parts_of(known->see), [&](string_view key) { return is_end_of(key, field.key); }))
+    return refuse(value, fmt::format("{} is {}", name, in_backticks(value.text)),
+                  fmt::format("{}\n{}", required, known->meaning));
 
   const string near = nearest(value.text, all);
   refuse(value, fmt::format("{} is {}", name, in_backticks(value.text)),

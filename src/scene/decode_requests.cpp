@@ -96,6 +96,12 @@ class Requests {
         out.trajectory->bodies = std::move(*bodies);
     }
 
+    using Tables = TablesOutput;
+    if (out.tables.separator == Tables::Separator::comma && out.tables.decimal == Tables::Decimal::comma)
+      diagnostics_.add(view.part("tables").place("decimal"),
+                       "the separator of cells and the decimal mark are both commas",
+                       "expected `{separator: \";\", decimal: \",\"}`, as spreadsheets with decimal commas have it");
+
     // The pictures.
     if (out.frames) check_window(view.part("frames"), out.frames->from, out.frames->until);
     if (out.video) check_video(view.part("video"), *out.video);

@@ -211,6 +211,9 @@ vector<vector<string_view>> needs_of(const Kind& kind);
 /// The first of these that holds the field's key. Empty: the field is not needed.
 vector<string_view> need_with(const Kind& kind, const Field& field);
 
+/// A word as YAML. One that begins with no letter or digit, such as a comma, is in quotes.
+string word_in_yaml(string_view word);
+
 /// The choices of a field, as separate words.
 vector<string_view> choices(const Field& field);
 

@@ -130,6 +130,12 @@ vector<string_view> choices(const Field& field) {
   return parts_of(field.of);
 }
 
+string word_in_yaml(string_view word) {
+  const char first = word.empty() ? ' ' : word.front();
+  const bool plain = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || (first >= '0' && first <= '9');
+  return plain ? string(word) : fmt::format("\"{}\"", word);
+}
+
 string title_of(const Field& field) {
   string title(field.title.empty() ? field.key : field.title);
   for (char& c : title) c = c == '_' ? ' ' : c;
@@ -187,13 +193,15 @@ string expected(const Field& field) {
   const TypeFacts& facts = facts_of(field.type);
   const string range = describe(field.range);
   if (field.range.min == field.range.max) return range;
+  vector<string> words;
+  for (const string_view choice : choices(field)) words.push_back(word_in_yaml(choice));
   const bool is_other = field.type == Type::names ? !field.of.empty() : !field.plain.empty();
-  return fmt::format(fmt::runtime(is_other ? facts.other_form : facts.form),
-                     fmt::arg("limits", range.empty() ? "" : " " + range),
-                     fmt::arg("unit", field.unit.empty() ? "" : fmt::format(" in {}", field.unit)),
-                     fmt::arg("an", field.range.even ? "an even" : "a"),
-                     fmt::arg("even", field.range.even ? "even " : ""), fmt::arg("choices", listed(choices(field))),
-                     fmt::arg("plain", listed(parts_of(field.plain))), fmt::arg("example", field.example));
+  return fmt::format(
+      fmt::runtime(is_other ? facts.other_form : facts.form), fmt::arg("limits", range.empty() ? "" : " " + range),
+      fmt::arg("unit", field.unit.empty() ? "" : fmt::format(" in {}", field.unit)),
+      fmt::arg("an", field.range.even ? "an even" : "a"), fmt::arg("even", field.range.even ? "even " : ""),
+      fmt::arg("choices", listed({words.begin(), words.end()})), fmt::arg("plain", listed(parts_of(field.plain))),
+      fmt::arg("example", field.example));
 }
 
 }  // namespace carom

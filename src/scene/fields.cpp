@@ -455,6 +455,7 @@ class FormatTable {
     for (const Kind& kind : kinds_of_scenes) add(scenes_, kind);
     vector<Field> of_output;
     for (const OutputKind& kind : output_kinds()) of_output.push_back(kind.field());
+    of_output.push_back(tables_field());
     add(scenes_, {"output", "", "What the run writes; an output that is absent is not written.", of_output});
     for (const OutputKind& kind : output_kinds()) {
       if (kind.keys.empty()) continue;

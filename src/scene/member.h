@@ -121,7 +121,7 @@ string yaml_any(const Field& field, const T& value) {
 
   } else {
     const nlohmann::ordered_json json = json_any(field, value);
-    if (json.is_string()) return json.get<string>();
+    if (json.is_string()) return word_in_yaml(json.get<string>());
     string text = text_of_json(json);
     if (json.is_array()) text.replace(text.find(','), 1, ", ");
     return text;

@@ -87,6 +87,22 @@ struct GltfOutput {
   double fps = 30;
 };
 
+/// How a run writes its tables.
+struct TablesOutput {
+  /// gzip: compressed CSV; xlsx: CSV, and a workbook of all tables.
+  enum class Format : uint8_t { csv, gzip, xlsx };
+  enum class Separator : uint8_t { comma, semicolon, tab };
+  enum class Decimal : uint8_t { point, comma };
+  Format format = Format::csv;
+  // Of CSV.
+  Separator separator = Separator::comma;
+  Decimal decimal = Decimal::point;
+
+  char separator_mark() const { return ",;\t"[size_t(separator)]; }
+  char decimal_mark() const { return ".,"[size_t(decimal)]; }
+  friend bool operator==(const TablesOutput&, const TablesOutput&) = default;
+};
+
 /// The intervals of the tables of which charts show the rows, in s. None: the scene lists no such table.
 struct PlotIntervals {
   optional<double> energy, trajectory;
@@ -100,6 +116,7 @@ struct Output {
   optional<EnergyOutput> energy;
   optional<ContactsOutput> contacts;
   bool regions = false;
+  TablesOutput tables;
   optional<FramesOutput> frames;
   optional<VideoOutput> video;
   optional<SheetOutput> sheet;

@@ -17,6 +17,8 @@ constexpr Range above_0{0, infinity, true, false};
 constexpr Range from_0{0, infinity, false, false};
 constexpr Range image_side{16, 16384};
 
+constexpr string_view table_ending = ".csv";
+
 // clang-format off
 constexpr Field trajectory_fields[] = {
     row<TrajectoryOutput, &TrajectoryOutput::every>("every", "Time between rows.", "0.01", {.unit = "s", .range = above_0, .title = "Time between rows"}),
@@ -30,6 +32,12 @@ constexpr Field energy_fields[] = {
 
 constexpr Field contacts_fields[] = {
     row<ContactsOutput, &ContactsOutput::every>("every", "Time between rows.", "0.1", {.unit = "s", .range = above_0, .title = "Time between rows"}),
+};
+
+constexpr Field tables_fields[] = {
+    row<TablesOutput, &TablesOutput::format>("format", "csv; csv.gz: the tables of the motion compressed, to half of the size or less; xlsx: CSV, and all tables in tables.xlsx.", "csv.gz", {.of = "csv|csv.gz|xlsx"}),
+    row<TablesOutput, &TablesOutput::separator>("separator", "The character between the cells of CSV files, those of a sweep included. A spreadsheet with decimal commas expects a semicolon.", "\";\"", {.of = ",|;|tab"}),
+    row<TablesOutput, &TablesOutput::decimal>("decimal", "The decimal mark in CSV files. A comma needs another separator.", "\",\"", {.of = ".|,", .title = "Decimal mark"}),
 };
 
 constexpr Field vtk_fields[] = {
@@ -66,7 +74,8 @@ constexpr Field frames_fields[] = {
 constexpr Field slow_fields[] = {
     row<SlowSettings, &SlowSettings::around>("around", "auto: the first collision in the time that the film shows. A ball, body, group or member (gas.3): the first one of these. none: no slow motion.", "red", {.type = Type::name, .title = "Whose collision", .pattern = reference}),
 };
-constexpr Kind kinds_below[] = {{"slow", "", "Slow motion around a collision.", slow_fields}};
+constexpr Kind kinds_below[] = {{"slow", "", "Slow motion around a collision.", slow_fields},
+                                {"tables", "", "How tables are written.", tables_fields}};
 
 constexpr Field video_fields[] = {
     row<VideoOutput, &VideoOutput::file>("file", "Name of the file, ending in .mp4 (H.264), .gif or .webp.", "break.mp4", {.pattern = R"(^(?=.{5,200}$)(?![-.])[^/\\\u0000-\u001f]+\.(mp4|gif|webp)$)"}),
@@ -276,6 +285,19 @@ optional<Size> size_named(string_view name) {
   return at == names.end() ? nullopt : optional(named_sizes[at - names.begin()]);
 }
 
+Field tables_field() {
+  return row_if_given<Output, &Output::tables>("tables",
+                                               "How tables are written. A word alone is `format`. `{separator: \";\", "
+                                               "decimal: \",\"}` suits spreadsheets with decimal commas.",
+                                               "{separator: \";\", decimal: \",\"}",
+                                               {.of = "tables", .plain = "format"});
+}
+
+string table_file(const TablesOutput& tables, string_view name) {
+  const bool packed = tables.format == TablesOutput::Format::gzip && name.ends_with(table_ending);
+  return string(name) + (packed ? ".gz" : "");
+}
+
 string FileSeries::name(int64_t number) const {
   return fmt::format("{}{:05}{}", stem, number, ending);
 }
@@ -311,7 +333,10 @@ nlohmann::ordered_json OutputKind::settings(const Output& output) const {
 
 bool OutputKind::has_file(string_view file) const {
   const vector<string_view> all = parts_of(files);
-  return contains(all, file);
+  return any_of(all, [&](string_view name) {
+    return file == name ||
+           (name.ends_with(table_ending) && file.starts_with(name) && file.substr(name.size()) == ".gz");
+  });
 }
 
 span<const OutputKind> output_kinds() {
@@ -324,6 +349,7 @@ span<const Kind> kinds_below_outputs() {
 
 Output restricted(const Output& requested, const vector<string>& only) {
   Output output;
+  output.tables = requested.tables;
   for (const OutputKind& kind : all_kinds)
     if (contains(only, kind.name)) kind.member.add(output, requested);
   return output;
@@ -338,6 +364,7 @@ bool holds_all(const Output& requested, const vector<string>& only) {
 
 Output with_all(const Output& requested) {
   Output output;
+  output.tables = requested.tables;
   for (const OutputKind& kind : all_kinds) kind.member.add(output, requested);
   return output;
 }
@@ -353,14 +380,15 @@ vector<string> output_files(const Output& output) {
   vector<string> names;
   for (const OutputKind& kind : all_kinds) {
     if (!kind.asked(output)) continue;
-    for (const string_view name : parts_of(kind.files)) names.emplace_back(name);
+    for (const string_view name : parts_of(kind.files)) names.push_back(table_file(output.tables, name));
     if (kind.named) names.push_back(kind.named(output));
   }
+  if (output.tables.format == TablesOutput::Format::xlsx) names.emplace_back(tables_workbook);
   return names;
 }
 
 bool is_reserved(string_view name) {
-  for (const string_view always : {"scene.yaml", "summary.csv", "manifest.json"})
+  for (const string_view always : {"scene.yaml", "summary.csv", "manifest.json", tables_workbook})
     if (name == always) return true;
   return std::any_of(std::begin(all_kinds), std::end(all_kinds), [&](const OutputKind& kind) {
     return kind.has_file(name) || (!kind.series.folder.empty() && kind.series.folder == name);

@@ -79,6 +79,14 @@ struct OutputKind {
 /// Every output, in the order of the scene's keys, of --only and of the manifest.
 span<const OutputKind> output_kinds();
 
+/// The key `tables` of `output`.
+Field tables_field();
+
+/// The file of a table: "energy.csv", and compressed "energy.csv.gz". Other names stay.
+string table_file(const TablesOutput& tables, string_view name);
+/// The workbook of a run's tables.
+inline constexpr const char* tables_workbook = "tables.xlsx";
+
 /// The kinds of maps that stand in the maps of outputs.
 span<const Kind> kinds_below_outputs();
 

@@ -15,10 +15,23 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "yaml/letters.h"
 #include "yaml/values.h"
 
 namespace carom {
 namespace {
+
+/// Whether readers of YAML 1.1 take a plain word for a flag, or for nothing.
+bool is_word_elsewhere(string_view text) {
+  const string word = in_lower_case(text);
+  const auto words = {"y", "n", "yes", "no", "on", "off", "true", "false", "null"};
+  return ranges::any_of(words, [&](string_view one) { return one == word; });
+}
+
+string vector_text(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", number_text(shortest(v.x())), number_text(shortest(v.y())),
+                     number_text(shortest(v.z())));
+}
 
 /// Texts that replace the values of a View, by key. An empty text leaves the key out.
 using Overrides = map<string_view, string>;
@@ -35,7 +48,7 @@ string flow(const View& view, const Overrides& overrides = {}) {
 
     if (text.empty()) continue;
     if (!out.empty()) out += ", ";
-    out += fmt::format("{}: {}", field.key, text);
+    out += fmt::format("{}: {}", key_text(field.key), text);
   }
 
   return "{" + out + "}";
@@ -85,8 +98,8 @@ class Resolver {
   }
 
  private:
-  void line(string_view key, string_view text) { out_ += fmt::format("{}: {}\n", key, text); }
-  void entry(string_view key, string_view text) { out_ += fmt::format("  {}: {}\n", key, text); }
+  void line(string_view key, string_view text) { out_ += fmt::format("{}: {}\n", key_text(key), text); }
+  void entry(string_view key, string_view text) { out_ += fmt::format("  {}: {}\n", key_text(key), text); }
 
   /// Writes `key:` for entries to follow, or `key: {}`.
   void heading(string_view key, bool empty) {
@@ -192,7 +205,7 @@ class Resolver {
     Overrides overrides;
     add_color(view, known.color, known.mesh, overrides);
     if (view.kind().name == "wall" && view.find("up") == nullptr)
-      overrides["up"] = yaml_of(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
+      overrides["up"] = vector_text(default_up(scene_.world.wall(inventory_.body_count + thing.first).normal));
     name_copy(view, known.mesh, overrides);
 
     // Windows that do not repeat are a list.
@@ -208,7 +221,7 @@ class Resolver {
     for (size_t i = 0; i < inventory_.strings.size(); ++i) {
       const View& view = inventory_.strings[i].view;
       Overrides overrides;
-      if (view.find("length") == nullptr) overrides["length"] = shortest(scene_.world.strings[i].length);
+      if (view.find("length") == nullptr) overrides["length"] = number_text(shortest(scene_.world.strings[i].length));
       entry(inventory_.strings[i].key->text, flow(view, overrides));
     }
     without_members("strings", "string");
@@ -245,7 +258,7 @@ class Resolver {
     const View view = scene_part(root_, "simulate");
     Overrides overrides;
     if (scene_.simulate.engine == Engine::book && view.find("step") == nullptr)
-      overrides["step"] = shortest(*scene_.simulate.step);
+      overrides["step"] = number_text(shortest(*scene_.simulate.step));
     overrides["contact"] = flow(view.part("contact"));
     line("simulate", flow(view, overrides));
   }
@@ -298,6 +311,7 @@ class Resolver {
       if (!kind.keys.empty() && kind.asked(scene_.output)) entry(kind.name, output_text(view, kind));
       if (kind.keys.empty() && is_said(kind)) entry(kind.name, kind.asked(scene_.output) ? "true" : "false");
     }
+    if (scene_.output.tables != TablesOutput{}) entry("tables", flow(view.part("tables")));
   }
 
   /// Whether the text of a scene has this flag. `plots`, `report` and `regions` are absent unless they are true,
@@ -312,7 +326,7 @@ class Resolver {
     Overrides overrides;
     // Decoding may give a GIF another rate than that of frames.
     if (kind.name == "video" && part.number("fps") != scene_.output.video->fps)
-      overrides["fps"] = shortest(scene_.output.video->fps);
+      overrides["fps"] = number_text(shortest(scene_.output.video->fps));
     return flow(part, overrides);
   }
 
@@ -339,15 +353,33 @@ string in_quotes(string_view text) {
   return out + "\"";
 }
 
+string number_text(string_view number) {
+  string text(number);
+  if (const size_t point = text.find_first_not_of("+-"); text.substr(min(point, text.size())).starts_with('.'))
+    text.insert(point, "0");
+  const size_t power = text.find_first_of("eE");
+  if (power == string::npos) return text;
+  if (text[power + 1] != '-' && text[power + 1] != '+') text.insert(power + 1, "+");
+  if (text.find('.') == string::npos) text.insert(power, ".0");
+  return text;
+}
+
+string key_text(string_view key) {
+  return is_word_elsewhere(key) ? in_quotes(key) : string(key);
+}
+
 string flow_text(const Node& node) {
   if (node.is_scalar()) {
-    const bool plain = !node.quoted && (is_name(node.text) || parse_number(node.text));
+    if (!node.quoted && parse_number(node.text)) return number_text(node.text);
+    const bool is_flag = node.text == "true" || node.text == "false";
+    const bool plain = !node.quoted && is_name(node.text) && (is_flag || !is_word_elsewhere(node.text));
     return plain ? node.text : in_quotes(node.text);
   }
+
   string out;
   for (size_t i = 0; i < node.items.size(); ++i) {
     if (i > 0) out += ", ";
-    if (node.is_map()) out += node.keys[i].text + ": ";
+    if (node.is_map()) out += key_text(node.keys[i].text) + ": ";
     out += flow_text(node.items[i]);
   }
   return node.is_map() ? "{" + out + "}" : "[" + out + "]";

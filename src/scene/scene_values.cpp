@@ -101,6 +101,31 @@ vector<SceneValue> scene_values(const string& name, const string& text) {
   return std::move(flattener.found);
 }
 
+string without_tables(string text) {
+  const size_t output = text.rfind("\noutput:\n");
+  const size_t line = output == string::npos ? output : text.find("\n  tables: ", output);
+  if (line != string::npos) text.erase(line, text.find('\n', line + 1) - line);
+  return text;
+}
+
+TablesOutput own_tables(const string& text) {
+  TablesOutput tables;
+  // Few scenes choose, and parsing takes longer than this search.
+  if (text.find("tables") == string::npos) return tables;
+  try {
+    for (const SceneValue& value : scene_values("scene.yaml", text)) {
+      if (value.path == "output.tables.separator")
+        tables.separator = value.text == ";"     ? TablesOutput::Separator::semicolon
+                           : value.text == "tab" ? TablesOutput::Separator::tab
+                                                 : TablesOutput::Separator::comma;
+      if (value.path == "output.tables.decimal" && value.text == ",") tables.decimal = TablesOutput::Decimal::comma;
+    }
+  } catch (const SceneError&) {
+    return {};
+  }
+  return tables;
+}
+
 vector<string> own_measure_names(const string& text) {
   constexpr string_view start = "measures.";
   vector<string> names;

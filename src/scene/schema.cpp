@@ -165,7 +165,7 @@ Json repeat_schema() {
 
 Json choice_schema(const Field& field) {
   Json all = Json::array();
-  for (const string_view choice : choices(field)) all.push_back(json_of_yaml(choice));
+  for (const string_view choice : choices(field)) all.push_back(json_of_yaml(word_in_yaml(choice)));
   return {{"enum", all}};
 }
 

@@ -136,7 +136,7 @@ string Sweep::resolved(string_view base_name) const {
 
   if (!charts.empty()) out += "  charts:\n";
   for (const SweepChart& chart : charts) {
-    out += fmt::format("    - {{x: {}, y: {}", in_quotes(chart.x), in_quotes(chart.y));
+    out += fmt::format("    - {{x: {}, {}: {}", in_quotes(chart.x), key_text("y"), in_quotes(chart.y));
     out += chart.by.empty() ? "}\n" : fmt::format(", by: {}}}\n", in_quotes(chart.by));
   }
   return out;

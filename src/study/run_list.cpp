@@ -62,7 +62,8 @@ string fault_of(ListedRun& run) {
     if (!is_plain_name(file.name)) continue;
 
     // A file that the comparison reads is checked by its hash, unless that takes long.
-    const bool is_read = file.bytes <= longest_hashed && (file.name.ends_with(".csv") || file.name == "scene.yaml");
+    const bool is_read = file.bytes <= longest_hashed &&
+                         (file.name.ends_with(".csv") || file.name.ends_with(".csv.gz") || file.name == "scene.yaml");
     const bool same = stored_size(folder.get(), file.name) == file.bytes &&
                       (!is_read || read_record(folder.get(), file.name).value_or(FileRecord{}).sha256 == file.sha256);
     if (!same) return fmt::format("{} has changed since the run: run its scene again", file.name);
@@ -154,7 +155,7 @@ vector<SceneValue> values_of(const ListedRun& run) {
   const auto text = folder ? read_text(folder.get(), "scene.yaml", max_source_bytes) : nullopt;
   if (!text && run.done) throw ExportError(fmt::format("{} has no scene.yaml: run its scene again", run.folder));
   if (!text) return {};
-  return scene_values(run.folder + "/scene.yaml", *text);
+  return scene_values(run.folder + "/scene.yaml", without_tables(*text));
 }
 
 }  // namespace

@@ -101,12 +101,13 @@ bool is_ended_sweep(const string& path) {
   return manifest && wrong_file(folder.get(), *manifest, is_other).empty();
 }
 
-string skipped_text(const Sweep& sweep, const vector<InvalidRun>& invalid) {
+string skipped_text(const Sweep& sweep, const string& base_text, const vector<InvalidRun>& invalid) {
   if (invalid.empty()) return "";
-  string text = "run,error\n";
+  const CsvDialect dialect(own_tables(base_text));
+  string text = fmt::format("run{}error\n", dialect.separator);
   for (const InvalidRun& run : invalid) {
-    text += sweep.id(run.number) + ",";
-    text += text_cell(run.messages) + "\n";
+    text += sweep.id(run.number) + dialect.separator;
+    text += text_cell(run.messages, dialect) + "\n";
   }
   return text;
 }

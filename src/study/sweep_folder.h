@@ -37,7 +37,7 @@ SweepContent inspect_sweep_folder(const string& folder, const Sweep& sweep, cons
 bool is_ended_sweep(const string& folder);
 
 /// The text of stored_skipped. Empty: none is left out, and there is no such file.
-string skipped_text(const Sweep& sweep, const vector<InvalidRun>& invalid);
+string skipped_text(const Sweep& sweep, const string& base_text, const vector<InvalidRun>& invalid);
 
 /// The runs that a folder's stored_skipped lists: id and errors.
 vector<pair<string, string>> stored_skips(const string& folder);

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -49,11 +50,32 @@ bool has_utf8_form(string_view text) {
          !(text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) && !text.starts_with(string_view("\0\0\xFE\xFF", 4));
 }
 
+/// None: it has not been read.
+optional<string>& from_standard_input() {
+  static optional<string> text;
+  return text;
+}
+
 Place one_byte(uint32_t index, size_t offset) {
   return {index, uint32_t(offset), 1};
 }
 
 }  // namespace
+
+void read_standard_input(const function<void()>& stop_check) {
+  constexpr int interval = 50;  // ms
+  string& text = from_standard_input().emplace();
+  while (text.size() <= max_source_bytes) {
+    stop_check();
+    pollfd ready{STDIN_FILENO, POLLIN, 0};
+    if (poll(&ready, 1, interval) <= 0) continue;
+    char buffer[1 << 16];
+    const ssize_t got = read(STDIN_FILENO, buffer, sizeof buffer);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) break;
+    text.append(buffer, size_t(got));
+  }
+}
 
 bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   source.name = path;
@@ -62,6 +84,24 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
     return false;
   };
   if (path.find('\0') != string::npos) return refuse("no such file");
+
+  string& text = source.text;
+  const auto too_big = [&] {
+    return refuse(fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
+                  "many balls of one kind are a group: `groups`");
+  };
+  const auto complete = [&] {
+    if (!has_utf8_form(text))
+      return refuse("this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)",
+                    "save it as UTF-8");
+    normalise(text);
+    return true;
+  };
+
+  if (path == standard_input && from_standard_input()) {
+    text = *from_standard_input();
+    return text.size() > max_source_bytes ? too_big() : complete();
+  }
 
   const OpenFile file{open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY)};
   struct stat info {};
@@ -74,12 +114,7 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
   if (!S_ISREG(info.st_mode)) return refuse("this is not a regular file", "write the scene to a file and name that");
 
   // The size can change during reading. The limit therefore applies to what was read, not to what fstat returned.
-  string& text = source.text;
   text.clear();
-  const auto too_big = [&] {
-    return refuse(fmt::format("the file is larger than {} MiB", max_source_bytes >> 20),
-                  "many balls of one kind are a group: `groups`");
-  };
   if (uint64_t(info.st_size) > max_source_bytes) return too_big();
   text.reserve(size_t(info.st_size) + 8);
 
@@ -92,11 +127,7 @@ bool read_source(const string& path, Source& source, Diagnostics& diagnostics) {
     text.append(buffer, size_t(got));
     if (text.size() > max_source_bytes) return too_big();
   }
-
-  if (!has_utf8_form(text))
-    return refuse("this is not UTF-8 text (it looks like UTF-16 or UTF-32, or is no text at all)", "save it as UTF-8");
-  normalise(text);
-  return true;
+  return complete();
 }
 
 string why_no_file(const string& path) {

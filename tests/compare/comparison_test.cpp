@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "compare/comparison_testing.h"
-#include "compare/number_look.h"
 #include "compare/outcomes.h"
 #include "compare/scenarios.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"
+#include "workbook/number_look.h"
 
 namespace carom::testing {
 namespace {

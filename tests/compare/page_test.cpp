@@ -5,9 +5,9 @@
 #include <regex>
 
 #include "compare/comparison_testing.h"
-#include "compare/number_look.h"
 #include "scene/output_kinds.h"
 #include "std.h"
+#include "workbook/number_look.h"
 
 namespace carom::testing {
 namespace {

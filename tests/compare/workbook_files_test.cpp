@@ -1,5 +1,5 @@
 // The temporary files of libxlsxwriter are recorded, and the workbook is compared with them.
-#include "compare/workbook_files.h"
+#include "workbook/workbook_files.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

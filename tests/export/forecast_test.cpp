@@ -13,11 +13,11 @@ using namespace testing_export;
 
 TEST(Forecast, CountsWhatARunWillWrite) {
   Scene scene = small_scene();
-  EXPECT_EQ(forecast(scene).rows, 0u);
+  EXPECT_TRUE(forecast(scene).tables.empty());
   EXPECT_EQ(forecast(scene).frames, 0u);
 
   scene.output.trajectory = TrajectoryOutput{0.01, false};
-  EXPECT_EQ(forecast(scene).rows, 84u);  // 21 instants of 4 bodies
+  EXPECT_EQ(forecast(scene).tables.at(0).rows, 84u);  // 21 instants of 4 bodies
 
   scene.output.frames = FramesOutput{30, {1280, 720}, 4, 0, {}};
   EXPECT_EQ(forecast(scene).frames, 7u);
@@ -44,12 +44,26 @@ TEST(Forecast, BytesAreOfTheRightSize) {
   EXPECT_NEAR(static_cast<double>(forecast(scene).bytes) / bytes, 1, 0.2);
 }
 
+TEST(Forecast, BytesFollowTheFormatOfTables) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.simulate.duration = 10;
+  scene.output.trajectory = TrajectoryOutput{0.01, false};
+  for (auto* vectors : {&scene.initial.position, &scene.initial.velocity})
+    for (Vec3& v : *vectors) v = Vec3(1.0 / 3, 1.0 / 7, -1.0 / 11);
+  const auto plain = static_cast<double>(forecast(scene).bytes);
+  scene.output.tables.format = TablesOutput::Format::gzip;
+  EXPECT_NEAR(static_cast<double>(forecast(scene).bytes) / plain, 0.4, 0.01);
+  scene.output.tables.format = TablesOutput::Format::xlsx;
+  EXPECT_NEAR(static_cast<double>(forecast(scene).bytes) / plain, 1.7, 0.01);
+}
+
 TEST(Forecast, SenselessRequestsDoNotOverflow) {
   Scene scene = small_scene();
   scene.simulate.duration = 1e300;
   scene.output.trajectory = TrajectoryOutput{1e-300, false};
   scene.output.frames = FramesOutput{1e300, {16384, 16384}, 4, 0, {}};
-  EXPECT_GT(forecast(scene).rows, uint64_t{1} << 53);
+  EXPECT_GT(forecast(scene).tables.at(0).rows, uint64_t{1} << 53);
   EXPECT_GE(forecast(scene).frames, uint64_t{1} << 53);
   EXPECT_EQ(forecast(scene).bytes, static_cast<uint64_t>(most_whole));
 }

@@ -256,5 +256,38 @@ TEST(Tables, AMillionBodiesTakeNoMemoryForTheirNames) {
   EXPECT_TRUE(text.ends_with("\n0,gas.199999,0,0,0,0,0,0\n"));
 }
 
+TEST(Tables, HaveTheSeparatorAndTheDecimalMarkOfTheScene) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.title = "Small; 1,5";
+  scene.output.trajectory = TrajectoryOutput{0.2, false};
+  scene.output.energy = EnergyOutput{0.2};
+  scene.output.tables.separator = TablesOutput::Separator::semicolon;
+  scene.output.tables.decimal = TablesOutput::Decimal::comma;
+  run(scene, temp / "run");
+
+  EXPECT_TRUE(read(temp / "run/trajectory.csv")
+                  .starts_with("time_s;body;x_m;y_m;z_m;vx_m_per_s;vy_m_per_s;vz_m_per_s\n"
+                               "0;red;0;1;0;1;0;0\n"))
+      << read(temp / "run/trajectory.csv");
+  EXPECT_NE(read(temp / "run/trajectory.csv").find("\n0,2;gas.1;"), string::npos);
+  EXPECT_TRUE(read(temp / "run/energy.csv").starts_with("time_s;kinetic_J;"));
+  EXPECT_NE(read(temp / "run/summary.csv").find(";\"Small; 1,5\";"), string::npos);
+  for (const char* table : {"trajectory.csv", "energy.csv"})
+    EXPECT_EQ(read(temp / "run/" + table).find(','), read(temp / "run/" + table).find("0,2") + 1);
+}
+
+TEST(Tables, WideOnesHaveTheDialectToo) {
+  TempFolder temp;
+  Scene scene = small_scene();
+  scene.output.trajectory = TrajectoryOutput{0.2, true};
+  scene.output.tables.separator = TablesOutput::Separator::tab;
+  run(scene, temp / "run");
+  const string table = read(temp / "run/trajectory.csv");
+  EXPECT_TRUE(table.starts_with("time_s\tred.x_m\tred.y_m\t"));
+  EXPECT_EQ(ranges::count(table, '\t'), 3 * 24);
+  EXPECT_EQ(ranges::count(table, ','), 0);
+}
+
 }  // namespace
 }  // namespace carom

@@ -59,6 +59,8 @@ class Command:
 
 COMMANDS = {
     "tables": Command("run tables.yaml -o out --progress none"),
+    "packed": Command("run tables.yaml --set output.tables=csv.gz -o out --progress none"),
+    "workbook": Command("run tables.yaml --set output.tables=xlsx -o out --progress none"),
     "film": Command("run film.yaml -o out --progress none", draws=True),
     "render": Command("render out --set camera.eye.y=5 --progress none", ["run film.yaml -o out"], draws=True),
     "still": Command("render out --at 0.25 --progress none", ["run film.yaml -o out"]),
@@ -68,6 +70,9 @@ COMMANDS = {
                                                      "sweep sweep.yaml -o out --shard 2/2"], forks=True),
     "compare": Command("compare a b -o out --progress none",
                        ["run tables.yaml -o a", "run tables.yaml -o b --set balls.red.mass=5"]),
+    "compare packed": Command("compare a b -o out --progress none",
+                              ["run tables.yaml -o a --set output.tables=csv.gz",
+                               "run tables.yaml -o b --set output.tables=csv.gz --set balls.red.mass=5"]),
 }
 
 # The errors of each failing call. (futex, which no program checks, ends in an abort of the C library.)

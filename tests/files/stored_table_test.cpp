@@ -73,5 +73,38 @@ TEST(LinesFromEnd, AreTheLastOnesWithoutTheFirst) {
   for (int i = 0; i < 30'000; ++i) ASSERT_EQ(lines[static_cast<size_t>(29'999 - i)], "line " + to_string(i));
 }
 
+/// A dialect of its own, as a German spreadsheet has it.
+CsvDialect semicolons() {
+  CsvDialect dialect;
+  dialect.separator = ';';
+  dialect.decimal = ',';
+  return dialect;
+}
+
+TEST(StoredTable, TakesTheSeparatorFromTheHeadAndGivesPointsForDecimalCommas) {
+  EXPECT_EQ(all_rows("time_s;body;x_m\n0,5;red;-1,25e-07\n1;;\n"),
+            (Rows{{"time_s", "body", "x_m"}, {"0.5", "red", "-1.25e-07"}, {"1", "", ""}}));
+  EXPECT_EQ(all_rows("time_s\tx_m\n0.5\t3,675\n"), (Rows{{"time_s", "x_m"}, {"0.5", "3.675"}}));
+  EXPECT_EQ(all_rows("time_s,a;b\n3,675\n"), (Rows{{"time_s", "a;b"}, {"3", "675"}}));
+  EXPECT_EQ(all_rows("\"a,b\";c\n1,5;2\n"), (Rows{{"a,b", "c"}, {"1.5", "2"}}));
+  EXPECT_EQ(all_rows("run\nr1\n"), (Rows{{"run"}, {"r1"}}));
+}
+
+TEST(StoredTable, GivesBackWhatACellOfADialectHeld) {
+  for (const string text : {"plain", "1,5", "a; b", "say \"so\"", "two\nlines", "gas.3", "\t", ""})
+    EXPECT_EQ(all_rows("x;y;z\n1,5;" + text_cell(text, semicolons()) + ";3\n"),
+              (Rows{{"x", "y", "z"}, {"1.5", text == "\t" ? "'\t" : text, "3"}}))
+        << text;
+}
+
+TEST(StoredTable, NumbersOfADialectAreTheSameDoubles) {
+  char text[number_size];
+  for (const double value : {0.1, -2.5, 1e-7, 0.1 + 0.2, 5e-324, -1.7976931348623157e308, 3.0, 3.675}) {
+    const string cell(text, put_number(text, value, semicolons()));
+    EXPECT_EQ(cell.find('.'), string::npos);
+    EXPECT_EQ(number_in(all_rows("x;y\n" + cell + ";\n")[1][0]), value) << cell;
+  }
+}
+
 }  // namespace
 }  // namespace carom

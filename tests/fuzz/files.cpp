@@ -1,8 +1,11 @@
 // Files that are read back: meshes, flights.bin, manifests, tables.
+#include <sys/mman.h>
+
 #include <cstring>
 
 #include "export/exports.h"
 #include "export/flights_file.h"
+#include "files/gzip.h"
 #include "files/manifest.h"
 #include "files/stored_table.h"
 #include "fuzz/memory_file.h"
@@ -12,6 +15,7 @@
 #include "render/mesh_reply.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "yaml/joined.h"
 
 namespace carom::fuzz {
 
@@ -320,13 +324,9 @@ void read_table_bytes(string_view bytes) {
   StoredTable table(file.open());
   vector<string> rows;
   while (const vector<string_view>* cells = table.next()) {
-    string row;
-    for (size_t k = 0; k < cells->size(); ++k) {
-      const string_view cell = (*cells)[k];
+    for (const string_view cell : *cells)
       if (const auto number = number_in(cell); number && !isfinite(*number)) throw Finding("a number without end");
-      row += (k == 0 ? "" : ",") + string(cell);
-    }
-    rows.push_back(std::move(row));
+    rows.push_back(joined(*cells, ","));
     if (rows.size() > bytes.size()) throw Finding("more rows than bytes");
   }
 
@@ -334,8 +334,11 @@ void read_table_bytes(string_view bytes) {
   // Empty lines at the end, and between rows, are no lines from the end.
   std::erase(rows, "");
 
+  vector<string_view> cells;
+  string changed;
   lines_from_end(file.open().get(), [&](string_view line) {
-    if (rows.empty() || rows.back() != line) throw Finding("another line from the end: " + string(line));
+    split_cells(line, table.separator(), cells, changed);
+    if (rows.empty() || rows.back() != joined(cells, ",")) throw Finding("another line from the end: " + string(line));
     rows.pop_back();
     return true;
   });
@@ -343,10 +346,54 @@ void read_table_bytes(string_view bytes) {
     throw Finding("lines from the end stop before the first row");
 }
 
+namespace {
+
+string gzip(string_view text) {
+  GzipMembers members;
+  string out;
+  const auto take = [&](string_view bytes) { out += bytes; };
+  members.add(text, take);
+  members.end(take);
+  return out;
+}
+
+string unpacked(string_view packed) {
+  const MemoryFile from(packed);
+  const Descriptor to(memfd_create("table", MFD_CLOEXEC));
+  unpack_gzip(from.open().get(), to.get(), {-1, "run"}, "energy.csv.gz");
+  return bytes_of("/proc/self/fd/" + to_string(to.get()));
+}
+
+}  // namespace
+
+/// What is unpacked is packed again, and then unpacked to the same.
+void read_gzip_bytes(string_view bytes) {
+  string text;
+  try {
+    text = unpacked(bytes);
+  } catch (const ExportError& error) {
+    if (string(error.what()).find("run/energy.csv.gz") == string::npos)
+      throw Finding("a refusal that does not name the file: " + string(error.what()));
+    return;
+  }
+  if (unpacked(gzip(text)) != text) throw Finding("another text when packed again");
+}
+
+vector<string> gzip_seeds() {
+  string many = "time_s,body,x_m\n";
+  for (int k = 0; k < 300; ++k) many += to_string(k) + ",red,1e-3\n";
+  return {gzip(many), gzip("a,b\n"), gzip("a\n") + gzip("1\n")};
+}
+
 vector<string> table_seeds() {
   string many = "time_s,body,x_m\n";
   for (int k = 0; k < 300; ++k) many += to_string(k) + ",red,1e-3\n";
-  return {"time_s,body,x_m\n0,red,1.5\n0.01,\"a, \"\"b\"\"\",-2\n", "a,b\n1,2\n3,4", "a\n\n\n", "\"a\nb\",c\n1,2\r\n",
+  return {"time_s,body,x_m\n0,red,1.5\n0.01,\"a, \"\"b\"\"\",-2\n",
+          "a,b\n1,2\n3,4",
+          "time_s;body;x_m\n0,5;red;1,5e-7\n1;;\n",
+          "a\tb\n1,5\t\n",
+          "a\n\n\n",
+          "\"a\nb\",c\n1,2\r\n",
           many};
 }
 

@@ -10,11 +10,13 @@ span<const Target> targets() {
       {"scene", load_scene_bytes, scene_seeds, 4096},
       {"sweep", load_sweep_bytes, sweep_seeds, 2048},
       {"settings", apply_settings_bytes, settings_seeds, 512},
+
       {"mesh_reply", read_mesh_reply_bytes, mesh_reply_seeds, 1024},
       {"mesh", read_mesh_bytes, mesh_seeds, 2048, 200},  // its reader is a process
       {"flights", read_flights_bytes, flights_seeds, 2048},
       {"manifest", read_manifest_bytes, manifest_seeds, 2048},
       {"table", read_table_bytes, table_seeds, 16384},
+      {"gzip", read_gzip_bytes, gzip_seeds, 4096},
       {"simulators", simulate_bytes, simulator_seeds, 1024, 200},  // milliseconds each
   };
   return all;

@@ -35,6 +35,7 @@ void read_mesh_bytes(string_view bytes);
 void read_flights_bytes(string_view bytes);
 void read_manifest_bytes(string_view bytes);
 void read_table_bytes(string_view bytes);
+void read_gzip_bytes(string_view bytes);
 void simulate_bytes(string_view bytes);
 vector<string> scene_seeds();
 vector<string> sweep_seeds();
@@ -44,6 +45,7 @@ vector<string> mesh_seeds();
 vector<string> flights_seeds();
 vector<string> manifest_seeds();
 vector<string> table_seeds();
+vector<string> gzip_seeds();
 vector<string> simulator_seeds();
 
 }  // namespace carom::fuzz

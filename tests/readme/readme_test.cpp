@@ -164,7 +164,7 @@ int run_commands(const Clone& clone, const Page& page, const PageBlock& block) {
 TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
   SLOW_WITH_SANITIZERS();
   const Clone clone;
-  int run = 0, compared = 0;
+  int run = 0, compared = 0, scripts = 0;
 
   for (const Page& page : pages()) {
     bool printed = false;  // by a command of this page
@@ -173,6 +173,13 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
         const int commands = run_commands(clone, page, block);
         printed |= commands > 0;
         run += commands;
+
+      } else if (block.language == "python") {
+        EXPECT_EQ(clone.run("/usr/bin/python3 - << 'END'\n" + block.text + "END"), 0) << page.path << "\n"
+                                                                                      << clone.err();
+        printed = true;
+        ++scripts;
+
       } else if (block.language == "text") {
         ASSERT_TRUE(printed) << page.path << " shows what no command has printed: " << block.text;
         EXPECT_TRUE(shows(block.text, clone.out())) << page.path << " shows\n" << block.text << "not\n" << clone.out();
@@ -181,8 +188,9 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
     }
   }
 
-  EXPECT_EQ(run, 34);
-  EXPECT_EQ(compared, 2);
+  EXPECT_EQ(run, 37);
+  EXPECT_EQ(scripts, 2);
+  EXPECT_EQ(compared, 4);
 
   // What the commands have left.
   for (const char* file :

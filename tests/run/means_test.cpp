@@ -118,6 +118,7 @@ TEST(Windows, ThatBeginOrEndAtAnImpactHaveItsInstant) {
       "balls: {b: {mass: 2, radius: 0.5, position: [0, 5.5, 0], velocity: [3, 0, 0], restitution: 0.5}}\n"
       "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0], restitution: 0.5}}\nsimulate: {duration: 1.5}";
   ASSERT_EQ(value_of("first(b, floor)", thrown), 1);
+
   for (const double t : {std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0)}) {
     const auto all = measured(
         thrown, {fmt::format("max(balls.b.x_m, until: {})", t), fmt::format("min(balls.b.x_m, from: {})", t),

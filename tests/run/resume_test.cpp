@@ -215,6 +215,16 @@ TEST(Resume, OfAPileWithAllOutputsHasTheSameFiles) {
     expect_to_go_on(place.scene(pile + more + outputs), random);
 }
 
+TEST(Resume, OfTablesInOtherFormsHasTheSameFiles) {
+  std::mt19937_64 random(5);
+  const RunPlace place;
+  for (const string tables : {"csv.gz", "xlsx", "{format: csv.gz, separator: \";\", decimal: \",\"}"})
+    expect_to_go_on(
+        place.scene(pile + "simulate: {duration: 1}\noutput: {trajectory: {every: 0.002}, collisions: true, " +
+                    "energy: {every: 0.05}, contacts: {every: 0.01}, regions: true, tables: " + tables + "}\n"),
+        random);
+}
+
 TEST(Resume, SimulatesNothingTwiceThatWasKept) {
   const RunPlace place;
   RunByChecks run(place, place.scene(pile + "simulate: {duration: 2}\noutput: {collisions: true}\n"));

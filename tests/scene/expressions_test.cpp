@@ -290,7 +290,7 @@ TEST(Expressions, AreTheSceneWithItsNumbersWrittenOut) {
   const Scene scene = load_text(with_expressions), plain = load_text(with_numbers);
   EXPECT_EQ(motion_text(scene), motion_text(plain));
   EXPECT_EQ(without_let(scene), plain.resolved);
-  EXPECT_NE(scene.resolved.find("let: {gap: 0.005, r: 0.05, a: 20, n: 12}"), string::npos);
+  EXPECT_NE(scene.resolved.find("let: {gap: 0.005, r: 0.05, a: 20, \"n\": 12}"), string::npos);
   EXPECT_EQ(scene.title, "= a title");
   const Scene again = load_text(scene.resolved);
   EXPECT_EQ(again.resolved, scene.resolved);

@@ -17,7 +17,23 @@ TEST(Outputs, AreTheKeysOfOutputInTheTableOfFields) {
   vector<string_view> keys, names;
   for (const Field& field : kind_named("output").fields) keys.push_back(field.key);
   for (const OutputKind& kind : output_kinds()) names.push_back(kind.name);
+  // How all tables are written.
+  names.emplace_back("tables");
   EXPECT_EQ(names, keys);
+}
+
+TEST(Outputs, FilesOfTablesFollowTheirFormat) {
+  Output output;
+  output.energy.emplace();
+  output.sheet.emplace();
+  EXPECT_EQ(output_files(output), (vector<string>{"energy.csv", "sheet.png"}));
+  output.tables.format = TablesOutput::Format::gzip;
+  EXPECT_EQ(output_files(output), (vector<string>{"energy.csv.gz", "sheet.png"}));
+  output.tables.format = TablesOutput::Format::xlsx;
+  EXPECT_EQ(output_files(output), (vector<string>{"energy.csv", "sheet.png", "tables.xlsx"}));
+  EXPECT_EQ(restricted(output, {"collisions"}).tables, output.tables);
+  for (const char* name : {"energy.csv.gz", "energy.csv", "tables.xlsx"}) EXPECT_TRUE(is_reserved(name)) << name;
+  EXPECT_FALSE(is_reserved("sheet.png.gz"));
 }
 
 TEST(Outputs, EachIsRequestedOnceItIsAddedAndNoOtherIs) {

@@ -59,10 +59,11 @@ TEST(RegionKeys, AreInTheResolvedScene) {
                                 "simulate: {duration: 1, stop: [rest, {region: low}]}\n"
                                 "output: {regions: true}\n");
 
-  EXPECT_NE(scene.resolved.find("regions:\n"
-                                "  pocket: {radius: 1, position: [9, 9, 9], action: none}\n"
-                                "  low: {plane: {point: [0, 0, 0], normal: [0, -1, 0]}, on: [red], action: none}\n"),
-            string::npos)
+  EXPECT_NE(
+      scene.resolved.find("regions:\n"
+                          "  pocket: {radius: 1, position: [9, 9, 9], action: none}\n"
+                          "  low: {plane: {point: [0, 0, 0], normal: [0, -1, 0]}, \"on\": [red], action: none}\n"),
+      string::npos)
       << scene.resolved;
   EXPECT_NE(scene.resolved.find("stop: [rest, {region: low}]"), string::npos);
   EXPECT_NE(scene.resolved.find("  regions: true\n"), string::npos);

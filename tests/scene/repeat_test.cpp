@@ -46,7 +46,7 @@ TEST(Repeat, ResolvesToMembersThatRunAlike) {
   EXPECT_EQ(again.resolved, scene.resolved);
   EXPECT_EQ(motion_text(again), motion_text(scene));
   EXPECT_NE(scene.resolved.find("  bricks.23: {"), string::npos);
-  EXPECT_NE(scene.resolved.find("on: [bricks]"), string::npos);
+  EXPECT_NE(scene.resolved.find("\"on\": [bricks]"), string::npos);
 }
 
 const string repeated_things = start + R"(

@@ -174,7 +174,7 @@ const string brief =
     "defaults: {ball: {mass: 10, radius: 0.11}}\n"
     "balls:\n"
     "  a: {position: [-1, 0, 0.025]}\n"
-    "  b: {density: 1e3, position: [1, 0, 0], color: tan}\n"
+    "  b: {density: 1.0e+3, position: [1, 0, 0], color: tan}\n"
     "walls: {w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1]}}\n"
     "simulate: {duration: 2, engine: book}\n"
     "output: {video: true}\n";
@@ -188,7 +188,7 @@ const string brief_resolved =
     "balls:\n"
     "  a: {mass: 10, radius: 0.11, position: [-1, 0, 0.025], velocity: [0, 0, 0], restitution: 1, color: "
     "\"#c8413f\"}\n"
-    "  b: {density: 1e3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
+    "  b: {density: 1.0e+3, radius: 0.11, position: [1, 0, 0], velocity: [0, 0, 0], restitution: 1, color: tan}\n"
     "walls:\n"
     "  w: {center: [0, 2, 0], normal: [0, -1, 0], size: [1, 1], up: [0, 0, 1], color: \"#8d98a5\", visible: true}\n"
     "simulate: {duration: 2, engine: book, step: 0.016666666666666666, as_printed: false, contact: {mode: bounce, "
@@ -257,6 +257,20 @@ TEST(ResolvedScene, HoldsWithoutOutputAndWithEmptyParts) {
 
 TEST(ResolvedScene, HasTheRateThatAGifGets) {
   EXPECT_NE(load_text(start + "output: {video: {file: x.gif}}\n").resolved.find("fps: 25,"), string::npos);
+}
+
+TEST(ResolvedScene, SaysHowTablesAreWrittenWhereThatIsNotCsv) {
+  const auto tables = [](const string& value) {
+    const string text = load_text(start + "output: {tables: " + value + "}\n").resolved;
+    const size_t at = text.find("  tables: ");
+    return at == string::npos ? "" : text.substr(at + 10, text.find('\n', at) - at - 10);
+  };
+  EXPECT_EQ(tables("csv"), "");
+  EXPECT_EQ(tables("{separator: \",\"}"), "");
+  EXPECT_EQ(tables("csv.gz"), "{format: \"csv.gz\", separator: \",\", decimal: \".\"}");
+  EXPECT_EQ(tables("{separator: tab}"), "{format: csv, separator: tab, decimal: \".\"}");
+  EXPECT_EQ(tables("{separator: ;, decimal: \",\", format: xlsx}"), "{format: xlsx, separator: \";\", decimal: \",\"}");
+  expect_stable(start + "output: {energy: true, tables: {separator: \";\", decimal: \",\"}}\n");
 }
 
 TEST(ResolvedScene, HoldsSettingsAndSeed) {

@@ -115,6 +115,7 @@ const vector<Beyond> beyond_schemas = {
     {"the scale of colours ends at", "two numbers against one another"},
     {"has no meaning for groups", "two keys against one another"},
     {"an MP4 has no transparency", "two keys against one another"},
+    {"are both commas", "two keys against one another"},
     {"has no sound", "two keys against one another"},
     {"the run has none of the bodies of this scene", "what a run holds"},
     {"begin where a former run had them", "a default that a former run cannot give"},

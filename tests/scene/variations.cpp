@@ -121,7 +121,7 @@ class Varying {
 };
 
 const vector<string> all_right = {
-    "{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}}}",
+    "{scene: 1, simulate: {duration: 1}, background: gray, output: {video: {file: b.mp4}, tables: csv.gz}}",
     R"(
 scene: 1
 balls: {red: {mass: 1, radius: 0.1, position: [0, 1, 0]}}
@@ -272,6 +272,7 @@ output:
   flights: true
   plots: true
   report: true
+  tables: {format: xlsx, separator: ";", decimal: ","}
 )",
     R"(
 scene: 1

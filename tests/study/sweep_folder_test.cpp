@@ -23,7 +23,7 @@ void finish(const SweepPlace& place, const string& lines) {
   SweepJob job = place.planned(lines);
   EXPECT_TRUE(place.do_runs(job).empty());
   SweepFolder folder(place / "out", SweepFolder::Use::exclusive, job.sweep(), job.base_text(),
-                     skipped_text(job.sweep(), job.invalid()), [] {});
+                     skipped_text(job.sweep(), job.base_text(), job.invalid()), [] {});
   vector<RunStatus> statuses;
   for (const PlannedRun& run : job.runs()) statuses.push_back(run.status);
   folder.finish(job.sweep(), statuses, {});
@@ -107,7 +107,7 @@ TEST(SweepFolder, IsSharedOnlyByParts) {
 TEST(Skipped, RunsAreReadAsTheyWereWritten) {
   const SweepPlace place;
   const Sweep sweep = place.sweep(two_masses);
-  const string text = skipped_text(sweep, {{1, "", "no mass, \"red\""}});
+  const string text = skipped_text(sweep, "", {{1, "", "no mass, \"red\""}});
   EXPECT_EQ(text, "run,error\nr0002,\"no mass, \"\"red\"\"\"\n");
 
   place.write("out/skipped.csv", text);
@@ -119,7 +119,7 @@ TEST(Skipped, RunsAreReadAsTheyWereWritten) {
 
 TEST(Skipped, NoRunsHaveNoFile) {
   const SweepPlace place;
-  EXPECT_EQ(skipped_text(place.sweep(two_masses), {}), "");
+  EXPECT_EQ(skipped_text(place.sweep(two_masses), "", {}), "");
   EXPECT_TRUE(stored_skips(place / "out").empty());
   EXPECT_TRUE(stored_failures(place / "out").empty());
 }

@@ -45,7 +45,7 @@ struct SweepPlace : Place {
   /// Begins the folder `out`, and does the job's runs. Returns the failures: "r0001: why".
   vector<string> do_runs(SweepJob& job) const {
     const SweepFolder folder(*this / "out", SweepFolder::Use::exclusive, job.sweep(), job.base_text(),
-                             skipped_text(job.sweep(), job.invalid()), [] {});
+                             skipped_text(job.sweep(), job.base_text(), job.invalid()), [] {});
     vector<string> failures;
     job.run([](const SweepProgress&) {},
             [&](size_t number, const string& why) { failures.push_back(job.sweep().id(number) + ": " + why); });

@@ -1,6 +1,6 @@
 // The largest number has five digits, and the smallest has two. Numbers below 1e-9 of the largest are taken for
 // rounding noise, such as an energy of 1e-15 J beside 15 J, and determine nothing.
-#include "compare/number_look.h"
+#include "workbook/number_look.h"
 
 #include <fmt/format.h>
 

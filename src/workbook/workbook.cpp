@@ -1,12 +1,15 @@
 // Writes cells with libxlsxwriter and checks every error.
 // The date of creation is fixed, and the archive is compared with the parts written to it before it is copied.
-#include "compare/workbook.h"
+#include "workbook/workbook.h"
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <new>
 #include <numeric>
 
@@ -92,6 +95,22 @@ size_t longest_word(string_view text) {
     text.remove_prefix(min(end + 1, text.size()));
   }
   return most;
+}
+
+/// A text between tags. XML has no control characters.
+string in_xml(string_view text) {
+  string xml;
+  for (const char c : text) {
+    if (c == '&')
+      xml += "&amp;";
+    else if (c == '<')
+      xml += "&lt;";
+    else if (c == '>')
+      xml += "&gt;";
+    else if (static_cast<unsigned char>(c) >= 0x20 || c == '\t' || c == '\n')
+      xml += c;
+  }
+  return xml;
 }
 
 /// A failed write of a cell must not go unnoticed.
@@ -182,6 +201,48 @@ void Worksheet::head(size_t row, size_t column, string_view text, CellStyle styl
   words_[column] = max(words_[column], longest_word(text));
   const string shown = shortened(text, longest_text);
   must(worksheet_write_string(sheet_, to_row(row), to_column(column), shown.c_str(), format(style)));
+}
+
+vector<ExactColumn> Worksheet::exact_columns(const vector<NumberLook>& looks) const {
+  vector<ExactColumn> columns;
+  for (const NumberLook& look : looks) {
+    char letters[LXW_MAX_COL_NAME_LENGTH];
+    lxw_col_to_name(letters, to_column(columns.size()), 0);
+    columns.push_back({letters, lxw_format_get_xf_index(format(CellStyle::plain, &look)), look.width()});
+  }
+  return columns;
+}
+
+// The library has a stream for the rows of a streamed sheet, and the last one in memory. A row that is written to that
+// stream, after the last one, is a row of the sheet as the library's own are.
+void Worksheet::exact_row(size_t row, const vector<string_view>& cells, const vector<ExactColumn>& columns) {
+  lxw_worksheet_write_single_row(sheet_);
+  string xml = fmt::format("<row r=\"{}\">", row + 1);
+  const auto out = std::back_inserter(xml);
+  const size_t count = min(cells.size(), columns.size());
+
+  for (size_t k = 0; k < count; ++k) {
+    const ExactColumn& column = columns[k];
+    if (cells[k].empty()) continue;
+    if (number_in(cells[k])) {
+      widen(k, column.width, CellStyle::plain);
+      fmt::format_to(out, FMT_COMPILE("<c r=\"{}{}\" s=\"{}\"><v>{}</v></c>"), column.letters, row + 1, column.style,
+                     cells[k]);
+    } else {
+      const string text = shortened(without_guard(cells[k]), longest_text);
+      widen(k, letters_of(text), CellStyle::plain);
+      fmt::format_to(out, FMT_COMPILE("<c r=\"{}{}\" t=\"inlineStr\"><is><t xml:space=\"preserve\">{}</t></is></c>"),
+                     column.letters, row + 1, in_xml(text));
+    }
+  }
+
+  xml += "</row>";
+  // The stream keeps its errors (workbook_files.h).
+  std::fwrite(xml.data(), 1, xml.size(), sheet_->file);
+  sheet_->dim_rowmin = min(sheet_->dim_rowmin, to_row(row));
+  sheet_->dim_rowmax = max(sheet_->dim_rowmax, to_row(row));
+  sheet_->dim_colmin = 0;
+  sheet_->dim_colmax = max(sheet_->dim_colmax, to_column(max<size_t>(count, 1) - 1));
 }
 
 void Worksheet::set_head_row(size_t row, size_t lines) {

@@ -5,10 +5,10 @@
 
 #include <list>
 
-#include "compare/number_look.h"
-#include "compare/workbook_files.h"
 #include "files/output_file.h"
 #include "std.h"
+#include "workbook/number_look.h"
+#include "workbook/workbook_files.h"
 
 namespace carom {
 
@@ -72,6 +72,13 @@ class CellFormats {
   map<pair<CellStyle, string>, lxw_format*> made_;
 };
 
+/// A column of rows that keep all digits.
+struct ExactColumn {
+  string letters;     // "AB"
+  int32_t style = 0;  // of numbers, in the library's table
+  size_t width = 0;   // of numbers, in characters
+};
+
 class Worksheet {
  public:
   Worksheet(lxw_worksheet* sheet, CellFormats& formats) : sheet_(sheet), formats_(formats) {}
@@ -94,6 +101,11 @@ class Worksheet {
   void head(size_t row, size_t column, string_view text, CellStyle style = CellStyle::header);
   /// Sets the height (points) of each row from `first` on, before `end`.
   void set_heights(size_t first, size_t end, double height);
+  /// Writes a row of a streamed sheet from the cells of a CSV table. Numbers keep exactly these digits; the library
+  /// would round them to 16, and read back they would be other doubles.
+  void exact_row(size_t row, const vector<string_view>& cells, const vector<ExactColumn>& columns);
+  /// The columns of such rows, by the looks of their numbers.
+  vector<ExactColumn> exact_columns(const vector<NumberLook>& looks) const;
   /// Sets the height of a row of heads. To be called before its first cell.
   void set_head_row(size_t row, size_t lines = 3);
   /// A text over several columns, of together `width` characters, in as many lines as it needs.

@@ -9,7 +9,7 @@ namespace carom {
 /// SSE4.2, wherever they are in memory.
 class Deflation {
  public:
-  enum class Format { plain, zlib };  // RFC 1951, RFC 1950
+  enum class Format { plain, zlib, gzip };  // RFC 1951, RFC 1950, RFC 1952
 
   /// The most bytes that so many become.
   static size_t most(size_t size);

@@ -2,7 +2,7 @@
 // has another hash, and so other bytes. The first bytes are compressed by themselves: its function for many bytes
 // (2.30, `.write_first_byte` of igzip_icf_body_h1_gr_bt.asm) takes the hash of the third byte of all from what a
 // register was left with, the address of its state.
-#include "export/deflation.h"
+#include "files/deflation.h"
 
 #include <isa-l/igzip_lib.h>
 
@@ -19,7 +19,7 @@ constexpr size_t first = 16;
 
 size_t Deflation::most(size_t size) {
   // Bytes that do not shrink are stored, in blocks of up to 65535 with 5 more each. The first ones have their own.
-  constexpr size_t block = 65535, block_head = 5, head_and_checksum = 6, block_of_first = 2 * first;
+  constexpr size_t block = 65535, block_head = 5, head_and_checksum = 18, block_of_first = 2 * first;
   return size + block_head * (size / block + 1) + block_of_first + head_and_checksum;
 }
 
@@ -32,7 +32,7 @@ size_t Deflation::pack(span<const uint8_t> bytes, uint8_t* to, size_t room, Form
   stream.level = 1;
   stream.level_buf = work_.data();
   stream.level_buf_size = uint32_t(work_.size());
-  stream.gzip_flag = format == Format::zlib ? IGZIP_ZLIB : IGZIP_DEFLATE;
+  stream.gzip_flag = format == Format::zlib ? IGZIP_ZLIB : format == Format::gzip ? IGZIP_GZIP : IGZIP_DEFLATE;
   stream.next_in = const_cast<uint8_t*>(bytes.data());
   stream.next_out = to;
   stream.avail_out = uint32_t(room);

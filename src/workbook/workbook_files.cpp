@@ -1,7 +1,7 @@
 // lxw_tmpfile is the only function of the library that makes temporary files.
 // By the rules of shared libraries, a function of that name in the program replaces it.
 // check_archive() detects the case in which it does not.
-#include "compare/workbook_files.h"
+#include "workbook/workbook_files.h"
 
 #include <fmt/format.h>
 #include <minizip/unzip.h>
@@ -24,6 +24,11 @@ using File = WorkbookFiles::File;
 
 WorkbookFiles* current = nullptr;
 
+function<void()>& stop_check() {
+  static function<void()> function = [] {};
+  return function;
+}
+
 ssize_t failed() {
   current->record_error(errno);
   return -1;
@@ -33,6 +38,8 @@ ssize_t failed() {
 
 ssize_t read_file(void* cookie, char* to, size_t size) {
   File& file = *static_cast<File*>(cookie);
+  // The library, which is C, ends with an error.
+  if (!current->goes_on()) return -1;
   ssize_t n;
   do n = pread(file.descriptor.get(), to, size, off_t(file.at));
   while (n < 0 && errno == EINTR);
@@ -139,6 +146,14 @@ bool ends_whole(int archive) {
 
 }  // namespace
 
+void check_while_packing(function<void()> function) {
+  stop_check() = std::move(function);
+}
+
+void check_packing() {
+  stop_check()();
+}
+
 WorkbookFiles::WorkbookFiles(const FilePlace& place, string name) : place_(place), name_(std::move(name)) {
   current = this;
 }
@@ -154,7 +169,17 @@ void WorkbookFiles::begin_parts() {
   rows_ = files_.size();
 }
 
+bool WorkbookFiles::goes_on() {
+  try {
+    if (!stopped_) check_packing();
+  } catch (...) {
+    stopped_ = std::current_exception();
+  }
+  return !stopped_;
+}
+
 void WorkbookFiles::check() const {
+  if (stopped_) std::rethrow_exception(stopped_);
   if (error_ != 0) fail("write", place_, name_, std::strerror(error_));
 }
 

@@ -4,11 +4,18 @@
 // These files have no names, record every failure, and record a checksum of what was written to them.
 // The finished workbook is compared with these checksums.
 #include <cstdio>
+#include <exception>
 
 #include "files/part_file.h"
 #include "std.h"
 
 namespace carom {
+
+/// Sets a function that is called often while a workbook is made. It may throw, and what makes the workbook passes that
+/// on. It is set once, at the program's start. By default nothing is called.
+void check_while_packing(function<void()> stop_check);
+/// Calls it.
+void check_packing();
 
 class WorkbookFiles {
  public:
@@ -23,8 +30,10 @@ class WorkbookFiles {
   /// Files made from here on are parts of the workbook. The earlier ones hold rows.
   void begin_parts();
 
-  /// Throws ExportError if a file could not be made, written or read.
+  /// Throws ExportError if a file could not be made, written or read, and what check_packing() has thrown meanwhile.
   void check() const;
+  /// Calls check_packing(), and keeps what it throws. False: it has thrown, and all reading fails from here on.
+  bool goes_on();
   /// Throws ExportError unless the workbook, a zip archive, has exactly the parts that were written, byte for byte.
   void check_archive(int archive) const;
 
@@ -48,6 +57,7 @@ class WorkbookFiles {
   /// The number of files with rows, which come first.
   size_t rows_ = 0;
   int error_ = 0;  // the first error
+  std::exception_ptr stopped_{};
 };
 
 }  // namespace carom
