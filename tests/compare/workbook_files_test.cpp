@@ -13,6 +13,7 @@
 #include "compare/comparison_testing.h"
 #include "files/run_folder.h"
 #include "std.h"
+#include "workbook/workbook.h"
 
 namespace carom {
 namespace {
@@ -95,6 +96,32 @@ TEST_F(WorkbookFilesTest, AFailedWriteIsReportedAtTheEnd) {
 TEST_F(WorkbookFilesTest, HaveNoNames) {
   put("rows");
   EXPECT_TRUE(std::filesystem::is_empty(place_ / ""));
+}
+
+struct Stopped {};
+
+TEST(WorkbookThatIsGivenUp, ThrowsWhatTheCheckThrows) {
+  const Place place;
+  const Descriptor folder = open_folder(AT_FDCWD, place / "", true);
+  const FilePlace at{folder.get(), "out"};
+  const auto write = [&] {
+    Workbook book(at, "book.xlsx", "Title");
+    Worksheet& sheet = book.add("Rows", true);
+    sheet.head(0, 0, "x_m");
+    for (size_t row = 1; row < 100; ++row) sheet.exact_row(row, {"0.1"}, sheet.exact_columns({NumberLook()}));
+    OutputFile file(at, "book.xlsx");
+    book.write(file);
+  };
+
+  int checks = 0;
+  check_while_packing([&] {
+    if (++checks > 2) throw Stopped();
+  });
+  EXPECT_THROW(write(), Stopped);
+  check_while_packing([&] { ++checks; });
+  EXPECT_NO_THROW(write());
+  EXPECT_GT(checks, 6);
+  check_while_packing([] {});
 }
 
 }  // namespace
