@@ -99,21 +99,25 @@ class ComparisonPage {
     draw_plots(std::move(plots), places);
   }
 
-  /// A comparison does not fail for want of charts.
+  /// A comparison does not fail for want of gnuplot. One that fails is an error, and the same command goes on from
+  /// there.
   void draw_plots(vector<Plot> plots, const vector<size_t>& places) {
     if (plots.empty()) return;
-    const size_t count = plots.size();
+    string gnuplot;
     try {
-      const PageFigures figures = draw_figures(std::move(plots), find_gnuplot());
-      marks_ = figures.marks;
-      for (size_t i = 0; i < count; ++i) charts_[places[i]].push_back(figures.figures[i]);
+      gnuplot = find_gnuplot();
     } catch (const ExportError& error) {
       // The remedy is a line of its own.
       string why = error.what();
       if (const size_t line = why.find("\n  "); line != string::npos) why.replace(line, 3, ": ");
       missing_ = fmt::format("<p class=\"doubtful\">{} left out: {}. Then compare the runs again.</p>\n",
-                             how_many(count, "chart is", "charts are"), html_text(why));
+                             how_many(plots.size(), "chart is", "charts are"), html_text(why));
+      return;
     }
+
+    const PageFigures figures = draw_figures(std::move(plots), gnuplot);
+    marks_ = figures.marks;
+    for (size_t i = 0; i < figures.figures.size(); ++i) charts_[places[i]].push_back(figures.figures[i]);
   }
 
   string facts() const {

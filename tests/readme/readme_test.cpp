@@ -188,7 +188,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
     }
   }
 
-  EXPECT_EQ(run, 37);
+  EXPECT_EQ(run, 34);
   EXPECT_EQ(scripts, 2);
   EXPECT_EQ(compared, 4);
 
