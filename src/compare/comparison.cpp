@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <future>
+
 #include "compare/charts.h"
 #include "compare/collision_sheet.h"
 #include "compare/common_values.h"
@@ -107,12 +109,16 @@ class Comparison {
       write_repeats(*repeats_, plan_, measures_, outcomes_);
     }
 
-    // The sheets that take all runs together.
+    // The page, of which gnuplot draws the charts in the meantime.
     const Findings findings = findings_of(outcomes_, measures_.size(), unrelated_);
-    const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
-    if (collisions_) collisions_->finish();
     const vector<SceneValue> common = common_.values();
     parameters_.finish(outcomes_, common);
+    const PageContent content{plan_, measures_, outcomes_, findings, runs_, parameters_.differences(), common, count_};
+    std::future<string> page = std::async(std::launch::async, [&] { return comparison_page(content); });
+
+    // The sheets that take all runs together.
+    const vector<PlacedSeries> placed = write_series(series_sheet_, series_);
+    if (collisions_) collisions_->finish();
     write_front(findings, placed);
     write_about(about_, plan_, measures_, remarks());
 
@@ -121,8 +127,7 @@ class Comparison {
     files.back()->complete();
 
     files.push_back(make_unique<OutputFile>(place_, page_name));
-    files.back()->write(
-        comparison_page({plan_, measures_, outcomes_, findings, runs_, parameters_.differences(), common, count_}));
+    files.back()->write(page.get());
     files.back()->complete();
     return files;
   }
