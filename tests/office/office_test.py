@@ -73,7 +73,7 @@ def main():
         every_sheet = "csv:Text - txt - csv (StarCalc):44,34,76,1,,0,false,true,false,false,false,-1"
         out = convert(folder, every_sheet, folder / "out/comparison.xlsx")
         sheets = {file.name: list(csv.reader(file.open(newline=""))) for file in out.glob("comparison-*.csv")}
-        assert len(sheets) == 6, sorted(sheets)
+        assert len(sheets) == 7, sorted(sheets)
         for file, lines in sheets.items():
             assert lines, file
             for line in lines:
@@ -91,13 +91,23 @@ def main():
         pivot = sheets["comparison-Pivot.csv"]
         assert math.isclose(number(pivot[5][1]), number(rows[1][rows[0].index("energy_lost_J")]), rel_tol=1e-4), pivot[5]
 
-        # On paper: the first page has the charts with their titles and axes.
+        # The heat map of the first sheet, whose formulas LibreOffice has recomputed.
+        compare = sheets["comparison-Compare.csv"]
+        head = next(i for i, line in enumerate(compare) if line[0] == "restitution.default \\ position.z")
+        places = [k for k, text in enumerate(compare[head][:27]) if number(text) is not None]
+        assert [number(compare[head][k]) for k in places] == [-0.025, 0.025], compare[head]
+        cells = [number(line[k]) for line in compare[head + 1:head + 4] for k in places]
+        lost = [number(row[rows[0].index("energy_lost_J")]) for row in rows[1:]]
+        assert len(lost) == 6 and all(math.isclose(a, b, rel_tol=1e-4, abs_tol=1e-12) for a, b in zip(cells, lost)), cells
+
+        # On paper: the first page has what varied, the highest and lowest runs, what matters, and the heat map.
         out = convert(folder, "pdf", folder / "out/comparison.xlsx")
         page = subprocess.run(["pdftotext", "-l", "1", str(out / "comparison.pdf"), "-"], check=True, capture_output=True,
                               text=True).stdout
-        for text in ("energy lost (J) by restitution.default", "kinetic energy (J) over time", "time (s)",
-                     "balls.red.position.z = -0.025 m"):
-            assert text in page, text
+        for text in ("6 runs; varied: restitution.default 0.5, 0.75, 1; balls.red.position.z -0.025 m, 0.025 m",
+                     "No run failed or is doubtful.", "highest", "lowest", "Spearman's rank correlation",
+                     "energy lost (J): down restitution.default, across balls.red.position.z", "energy lost (J): all"):
+            assert text in page, (text, page)
     print(f"{numbers} numbers, {len(sheets)} sheets")
 
 
