@@ -210,11 +210,9 @@ class ComparisonPage {
     string text;
     const bool decided = any_of(shown_, [](const MeasureFinding* one) { return one->strongest.has_value(); });
     for (const MeasureFinding* finding : shown_) {
-      // Of few runs the lowest is the last of the highest ones.
-      const size_t lowest = finding->lowest.empty() ? finding->highest.back() : finding->lowest.front();
       text += fmt::format("<tr><th>{}</th><td>{}</td><td>{}</td>", html_text(label(finding->measure)),
-                          extreme(*finding, finding->highest.front(), finding->at_highest),
-                          extreme(*finding, lowest, finding->at_lowest));
+                          extreme(*finding, finding->top, finding->at_highest),
+                          extreme(*finding, finding->bottom, finding->at_lowest));
 
       const auto strongest = finding->strongest;
       if (decided)
@@ -261,8 +259,7 @@ class ComparisonPage {
   /// The spread of repeats beside the differences between scenarios.
   string repeats_of(const MeasureFinding& finding) const {
     if (!isfinite(finding.spread_of_repeats)) return {};
-    const size_t lowest = finding.lowest.empty() ? finding.highest.back() : finding.lowest.front();
-    const double range = mean(finding.highest.front(), finding.measure) - mean(lowest, finding.measure);
+    const double range = mean(finding.top, finding.measure) - mean(finding.bottom, finding.measure);
     const double share = finding.spread_of_repeats / range;
     return fmt::format("<li>{}: repeats differ by ± {:.3g} (standard deviation), {}.</li>",
                        html_text(label(finding.measure)), finding.spread_of_repeats,
