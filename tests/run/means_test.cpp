@@ -141,6 +141,41 @@ TEST(Windows, ThatBeginOrEndAtAnImpactHaveItsInstant) {
   EXPECT_NEAR(both[3], 5, 1e-14);
 }
 
+TEST(Windows, ThatEndAtTheTimeOfAnImpactHaveBothOfItsSides) {
+  // Whatever the impact's time, it is in the window up to its double, as hits counts it.
+  for (int i = 0; i < 40; ++i) {
+    const string dropped = fmt::format(
+        "scene: 1\ngravity: [0, -9.81, 0]\n"
+        "balls: {{b: {{mass: 2, radius: 0.1, position: [0, {}, 0], restitution: 0.5}}}}\n"
+        "planes: {{floor: {{point: [0, 0, 0], normal: [0, 1, 0], restitution: 0.5}}}}\nsimulate: {{duration: 3}}",
+        1 + 0.07 * i);
+    const string t = fmt::format("{}", value_of("first(b, floor)", dropped));
+    const auto all =
+        measured(dropped, {"hits(b, until: " + t + ")", "max(balls.b.vy_m_per_s, until: " + t + ")",
+                           "min(balls.b.vy_m_per_s, until: " + t + ")", "max(balls.b.vy_m_per_s, from: " + t + ")"});
+
+    const double speed = sqrt(2 * 9.81 * (0.9 + 0.07 * i));
+    EXPECT_EQ(all[0], 1) << t;
+    EXPECT_NEAR(all[1], 0.5 * speed, 1e-12) << t;
+    EXPECT_NEAR(all[2], -speed, 1e-12) << t;
+    EXPECT_NEAR(all[3], 0.5 * speed, 1e-12) << t;
+  }
+}
+
+TEST(Windows, OfARunThatStopsAtAnImpactHaveBothOfItsSides) {
+  for (int i = 0; i < 20; ++i) {
+    const string dropped = fmt::format(
+        "scene: 1\ngravity: [0, -9.81, 0]\n"
+        "balls: {{b: {{mass: 2, radius: 0.1, position: [0, {}, 0], restitution: 0.5}}}}\n"
+        "planes: {{floor: {{point: [0, 0, 0], normal: [0, 1, 0], restitution: 0.5}}}}\n"
+        "simulate: {{duration: 3, stop: [{{collisions: 1}}]}}",
+        1 + 0.07 * i);
+    const auto all = measured(dropped, {"max(balls.b.vy_m_per_s)", "balls.b.vy_m_per_s"});
+    EXPECT_EQ(all[0], all[1]) << i;
+    EXPECT_NEAR(all[0], 0.5 * sqrt(2 * 9.81 * (0.9 + 0.07 * i)), 1e-12) << i;
+  }
+}
+
 TEST(Windows, OfExtremesHaveTheirEnds) {
   const auto all =
       measured(bouncing(4),

@@ -197,7 +197,9 @@ void PathExtremes::note(Entity i) {
 vector<Extremes> PathExtremes::up_to(double time) const {
   vector<Extremes> found = found_;
   for (Entity i = 0; i < seen_.size(); ++i) {
-    const Seen seen = take(i, {time, 0}, found);
+    // An impact at the double of the end has its other side, too.
+    const Instant start = bodies_.flights[i].start;
+    const Seen seen = take(i, start.hi == time ? max(start, Instant{time, 0}) : Instant{time, 0}, found);
     for (size_t k = 0; k < found.size() && seen.any; ++k) {
       const WatchedQuantity& watched = bodies_.options.watch[k];
       if (watched.has(i) && !watched.mean && watched.window.has(seen.until.hi))
@@ -267,10 +269,12 @@ PathExtremes::Seen PathExtremes::take(Entity i, const Instant& until, vector<Ext
     // The part of the flight that is in the window. Of an instant between two flights each has its own side.
     const Instant first = max(since, Instant{watched.window.from, 0}),
                   last = min(until, Instant{watched.window.until, 0});
-    const bool ends_here = last == since && since < until;
-    if (last < first || (last == first && since < until && !ends_here)) continue;
+    // An impact at the double of its end is in the window.
+    const bool ends_here = since.hi == watched.window.until && since < until;
+    if (!ends_here && (last < first || (last == first && since < until))) continue;
     const double enters = first - f.start, leaves = last - f.start;
     if (watched.mean) {
+      if (last < first) continue;
       found[k].integral.add(integral_of(part, quantity, mass, enters, leaves));
       found[k].seconds.add(last - first);
       continue;
