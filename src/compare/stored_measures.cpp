@@ -77,7 +77,11 @@ const Scene& StoredMeasures::scene() {
 }
 
 const vector<EndMotion>& StoredMeasures::ends() {
-  if (!ends_) ends_ = end_of_trajectory(folder_).bodies;
+  if (ends_) return *ends_;
+  TrajectoryEnd end = end_of_trajectory(folder_);
+  // The last rows are those of the end, unless no body is left then.
+  if (end.time < duration_) end.bodies.clear();
+  ends_ = std::move(end.bodies);
   return *ends_;
 }
 
@@ -125,6 +129,8 @@ Measured StoredMeasures::value(const Measure& measure, const vector<string>& sum
 }
 
 double StoredMeasures::number(const Measure& measure, const vector<string>& summary) {
+  static const auto duration = size_t(find_summary_column("duration_s") - summary_columns().data());
+  duration_ = number_in(summary[duration]).value_or(0);
   if (measure.form == MeasureForm::column) {
     const auto column = size_t(measure.column - summary_columns().data());
     return number_in(summary[column]).value_or(undefined);

@@ -56,6 +56,7 @@ class StoredMeasures {
   const string path_;
   optional<optional<Manifest>> manifest_;
   optional<Scene> scene_;
+  double duration_ = 0;  // s, of the run
   optional<vector<EndMotion>> ends_;
 };
 

@@ -82,7 +82,9 @@ string_view unit_of(string_view column) {
 
 string label_of(string_view column) {
   const auto [call, whole] = call_of(column);
-  if (column.starts_with('=') || call == "hits" || call == "count") return string(column);
+  if (column.starts_with('=')) return string(column.substr(min(column.find_first_not_of("= "), column.size())));
+  if (call == "hits" || call == "count") return string(column);
+
   const auto [inside, window] = without_window(whole);
   if (call == "first") return fmt::format("first hit of {}{} (s)", inside, window);
   if (call == "impulse") return fmt::format("impulse of {}{} (N s)", inside, window);

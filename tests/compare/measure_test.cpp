@@ -164,6 +164,21 @@ TEST(MeasureValues, AreTheSameFromTheRunAndFromItsTables) {
   EXPECT_GT(of_run[6].value, 0);
 }
 
+TEST(MeasureValues, OfARunWithoutBodiesAtItsEndAreThoseOfNone) {
+  const Place place;
+  // It leaves at 0.5 s, and the last rows of its trajectory are from before.
+  const string yaml =
+      "scene: 1\ngravity: [0, 0, 0]\nballs: {red: {mass: 1, radius: 0.1, position: [0, 0, 0], velocity: [2, 0, 0]}}\n"
+      "regions: {hole: {position: [2, 0, 0], box: [2, 2, 2], action: remove}}\nsimulate: {duration: 1}\n"
+      "output: {trajectory: {every: 0.2}}\n";
+  const vector<string> names = {"count(x_m < 7.5)", "balls.red.x_m"};
+  place.run(yaml, "run");
+  EXPECT_EQ(rows_of(place.read("run/trajectory.csv")).back()[0], "0.4");
+  const RunRecord run = read_run({"run", place / "run", {}}, measures_of({"", {}, names, {}, {}}));
+  EXPECT_EQ(run.measures[0], 0);
+  EXPECT_TRUE(std::isnan(run.measures[1]));
+}
+
 TEST(MeasureValues, OfAStringCountForBothOfItsBodies) {
   const Place place;
   const vector<string> names = {"first(red, line)", "first(line, blue)", "hits(red, line)", "hits(blue, line)",
@@ -298,7 +313,7 @@ TEST(MeasureLabels, HaveTheirUnits) {
   EXPECT_EQ(label_of("max(balls.red.y_m)"), "maximum balls.red y (m)");
   EXPECT_EQ(label_of("time_of_min(balls.red.speed_m_per_s)"), "time of the minimum balls.red speed (s)");
   EXPECT_EQ(label_of("first(red, blue)"), "first hit of red, blue (s)");
-  EXPECT_EQ(label_of("= hits(red) / 2"), "= hits(red) / 2");
+  EXPECT_EQ(label_of("= hits(red) / 2"), "hits(red) / 2");
   EXPECT_EQ(unit_of("max(balls.red.kinetic_J)"), "J");
   EXPECT_EQ(unit_of("impulse_N_s"), "N s");
   EXPECT_EQ(unit_of("first_collision_s"), "s");
