@@ -37,19 +37,25 @@ string short_text_of(const FoundRun& run) {
 Json run_json(const FoundRun& run) {
   Json values = Json::object();
   for (const auto& [path, value] : run.values) values[path] = value;
-  return {{"run", run.id}, {"value", run.value}, {"others", run.others}, {"values", std::move(values)}};
+  return {{"run", run.id},
+          {"value", run.value},
+          {"repeats", run.repeats},
+          {"others", run.others},
+          {"values", std::move(values)}};
 }
 
 }  // namespace
 
 void describe(Block& block, const vector<FoundMeasure>& found) {
-  for (size_t k = 0; k < min(found.size(), most_lines); ++k) {
-    const FoundMeasure& one = found[k];
-    string text =
-        fmt::format("{} from {} to {}", printable(one.name), short_text_of(one.lowest), short_text_of(one.highest));
+  size_t lines = 0;
+  for (const FoundMeasure& one : found) {
+    if (lines == most_lines) break;
+    if (!(one.lowest.value < one.highest.value)) continue;
+    string text = fmt::format("{}{} from {} to {}", one.highest.repeats > 1 ? "mean " : "", printable(one.name),
+                              short_text_of(one.lowest), short_text_of(one.highest));
     if (!one.strongest.empty())
       text += fmt::format(", mostly by {} ({:+.2f})", printable(one.strongest_name), one.correlation);
-    block.line(k == 0 ? "found" : "", text);
+    block.line(lines++ == 0 ? "found" : "", text);
   }
 }
 
@@ -58,8 +64,16 @@ void describe_best(Block& block, const vector<FoundMeasure>& found, string_view 
   if (best == found.end())
     block.warning("best", fmt::format("no run has a value of {}", in_backticks(measure)));
   else
-    block.line("best", fmt::format("{} of {} in {}", number_text(best->highest.value), in_backticks(measure),
-                                   text_of(best->highest)));
+    block.line(
+        "best",
+        fmt::format("{}{} of {} in {}", number_text(best->highest.value),
+                    best->highest.repeats > 1 ? fmt::format(", the mean of {} repeats,", best->highest.repeats) : "",
+                    in_backticks(measure), text_of(best->highest)));
+}
+
+Json best_json(const vector<FoundMeasure>& found, string_view measure) {
+  const auto best = ranges::find(found, measure, &FoundMeasure::name);
+  return best == found.end() ? Json() : run_json(best->highest);
 }
 
 Json found_json(const vector<FoundMeasure>& found) {

@@ -15,6 +15,8 @@ void describe(Block& block, const vector<FoundMeasure>& found);
 /// The run with the highest value of the measure, or that no run has one.
 void describe_best(Block& block, const vector<FoundMeasure>& found, string_view measure);
 
+/// That run. Null: no run has a value.
+nlohmann::ordered_json best_json(const vector<FoundMeasure>& found, string_view measure);
 nlohmann::ordered_json found_json(const vector<FoundMeasure>& found);
 
 }  // namespace carom

@@ -86,6 +86,7 @@ int show_outcome(const Options& options, const SweepOutcome& outcome, const Swee
     json["doubtful"] = outcome.doubtful;
     json["wall_s"] = outcome.wall_s;
     json["found"] = found_json(found);
+    if (!best.empty()) json["best"] = best_json(found, best);
     return print_end(options, code, json);
   }
 

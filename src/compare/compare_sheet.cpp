@@ -83,9 +83,9 @@ void add_correlation_scale(Worksheet& sheet, size_t row, size_t column, size_t r
   scale.min_value = -1;
   scale.mid_value = 0;
   scale.max_value = 1;
-  scale.min_color = 0xF4B183;
+  scale.min_color = 0x8FBFE0;
   scale.mid_color = 0xFFFFFF;
-  scale.max_color = 0x8FBFE0;
+  scale.max_color = 0xF4B183;
   worksheet_conditional_format_range(sheet.get(), to_row(row), to_column(column), to_row(row + rows - 1),
                                      to_column(column + width - 1), &scale);
 }

@@ -15,9 +15,26 @@ namespace {
 constexpr double rounding = 1e-12;
 
 /// The greatest rank correlation by chance, of 19 in 20 cases without a relation (Kendall and Gibbons 1990, section
-/// 4.7): its standard deviation for n points is 1 / sqrt(n - 1). Of few points even 1 may be chance, and is shown.
+/// 4.7): its standard deviation for n points is 1 / sqrt(n - 1). Four points are in order by chance in 2 of 24 cases.
 double chance(size_t points) {
-  return points < 2 ? infinity : min(0.999, 1.96 / sqrt(double(points) - 1));
+  constexpr size_t least = 5;
+  return points < least ? infinity : 1.96 / sqrt(double(points) - 1);
+}
+
+/// The values, of which those that differ by rounding alone are equal.
+vector<double> without_rounding(vector<double> values) {
+  vector<size_t> order;
+  double scale = 0;
+  for (size_t i = 0; i < values.size(); ++i) {
+    if (!isfinite(values[i])) continue;
+    order.push_back(i);
+    scale = max(scale, std::abs(values[i]));
+  }
+
+  ranges::sort(order, [&](size_t a, size_t b) { return values[a] < values[b]; });
+  for (size_t k = 1; k < order.size(); ++k)
+    if (values[order[k]] - values[order[k - 1]] <= rounding * scale) values[order[k]] = values[order[k - 1]];
+  return values;
 }
 
 void rank(MeasureFinding& finding, const vector<double>& values) {
@@ -29,14 +46,11 @@ void rank(MeasureFinding& finding, const vector<double>& values) {
 
   ranges::stable_sort(order, [&](size_t a, size_t b) { return values[a] > values[b]; });
   const double high = values[order.front()], low = values[order.back()];
-  const double noise = rounding * max(std::abs(high), std::abs(low));
-  const auto is_high = [&](double value) { return value >= high - noise; };
-  const auto is_low = [&](double value) { return value <= low + noise; };
-  finding.is_constant = high - low <= noise;
-  finding.at_highest = size_t(ranges::count_if(values, is_high));
-  finding.at_lowest = size_t(ranges::count_if(values, is_low));
-  finding.top = size_t(ranges::find_if(values, is_high) - values.begin());
-  finding.bottom = size_t(ranges::find_if(values, is_low) - values.begin());
+  finding.is_constant = high == low;
+  finding.at_highest = size_t(ranges::count(values, high));
+  finding.at_lowest = size_t(ranges::count(values, low));
+  finding.bottom = size_t(ranges::find(values, low) - values.begin());
+  finding.top = order.front();
 
   // The lowest first, those of equal values in the order of the runs.
   const size_t tops = min(order.size(), MeasureFinding::most_ranked);
@@ -98,6 +112,7 @@ Findings findings_of(const Outcomes& outcomes, size_t measures, bool unrelated) 
     finding.measure = k;
     vector<double> values;
     for (size_t i = 0; i < outcomes.points(); ++i) values.push_back(outcomes.spread(i, k).mean());
+    values = without_rounding(std::move(values));
     rank(finding, values);
     finding.spread_of_repeats = spread_of_repeats(outcomes, k);
     correlate(finding, values, parameters);

@@ -23,28 +23,51 @@ constexpr SpreadColumn spread_columns[] = {{"mean", [](const Spread& s) { return
                                            {"min", [](const Spread& s) { return s.min(); }},
                                            {"max", [](const Spread& s) { return s.max(); }}};
 
+/// Whether a measure has no value in some complete runs, so that it needs its own n.
+bool is_uneven(const Outcomes& outcomes, size_t measure) {
+  for (size_t i = 0; i < outcomes.points(); ++i)
+    if (outcomes.spread(i, measure).count() != outcomes.runs(i)) return true;
+  return false;
+}
+
 /// `labels`: readable ones, for a sheet.
-vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures, bool labels) {
+vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes,
+                              bool labels) {
   vector<string> header;
   for (size_t p = 0; p < plan.parameters.size(); ++p)
     if (p != plan.seed) header.push_back(labels ? label_of(plan.parameters[p]) : plan.parameters[p].path);
   header.emplace_back("n");
-  for (const Measure& measure : measures)
-    for (const SpreadColumn& column : spread_columns)
-      header.push_back(labels ? fmt::format("{}, {}", label_of(measure.name), column.name)
-                              : fmt::format("{}.{}", measure.name, column.name));
+
+  for (size_t k = 0; k < measures.size(); ++k) {
+    const auto add = [&](const char* name) {
+      header.push_back(labels ? fmt::format("{}, {}", label_of(measures[k].name), name)
+                              : fmt::format("{}.{}", measures[k].name, name));
+    };
+    if (is_uneven(outcomes, k)) add("n");
+    for (const SpreadColumn& column : spread_columns) add(column.name);
+  }
   return header;
 }
 
-/// Calls use(column, cell) for the cells of a point's row.
+/// Calls use(column, cell) for the cells of a point's row. `uneven`: by measure.
 template <typename Use>
-void for_cells(const ComparisonPlan& plan, size_t measures, const Outcomes& outcomes, size_t point, const Use& use) {
+void for_cells(const ComparisonPlan& plan, const vector<bool>& uneven, const Outcomes& outcomes, size_t point,
+               const Use& use) {
   size_t column = 0;
   for (const Varied& varied : outcomes.varied())
     if (varied.parameter != plan.seed) use(column++, varied.values[varied.of_point[point]]);
   use(column++, Cell{{}, double(outcomes.runs(point))});
-  for (size_t k = 0; k < measures; ++k)
-    for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(outcomes.spread(point, k))});
+  for (size_t k = 0; k < uneven.size(); ++k) {
+    const Spread spread = outcomes.spread(point, k);
+    if (uneven[k]) use(column++, Cell{{}, double(spread.count())});
+    for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(spread)});
+  }
+}
+
+vector<bool> uneven_measures(const Outcomes& outcomes, size_t measures) {
+  vector<bool> uneven;
+  for (size_t k = 0; k < measures; ++k) uneven.push_back(is_uneven(outcomes, k));
+  return uneven;
 }
 
 }  // namespace
@@ -176,9 +199,9 @@ bool Outcomes::follows(const Varied& a, const Varied& b) const {
     known = b.of_point[i];
   }
 
-  // Where each point has its own value of a, any b is a function of it. Indices of values are in order of size.
-  const bool says_nothing = a.values.size() == a.of_point.size() && a.numeric && b.numeric;
-  return !says_nothing || ranges::is_sorted(of) || ranges::is_sorted(of, std::greater<>());
+  // Samples and lists pair numbers at will. Only what rises or falls with another number follows from it. Indices of
+  // values are in order of size.
+  return !a.numeric || !b.numeric || ranges::is_sorted(of) || ranges::is_sorted(of, std::greater<>());
 }
 
 vector<size_t> Outcomes::independent() const {
@@ -208,12 +231,13 @@ bool AbsentValues::unrelated() const {
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
   CsvRow row(file);
-  for (const string& name : repeats_header(plan, measures, false)) row.text(name);
+  for (const string& name : repeats_header(plan, measures, outcomes, false)) row.text(name);
   row.end();
 
+  const vector<bool> uneven = uneven_measures(outcomes, measures.size());
   const size_t count = plan.parameters.size() - 1;  // the column of n
   for (size_t i = 0; i < outcomes.points(); ++i) {
-    for_cells(plan, measures.size(), outcomes, i, [&](size_t column, const Cell& cell) {
+    for_cells(plan, uneven, outcomes, i, [&](size_t column, const Cell& cell) {
       if (column == count)
         row.count(outcomes.runs(i));
       else
@@ -225,19 +249,19 @@ void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Me
 
 void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
-  const vector<string> header = repeats_header(plan, measures, true);
+  const vector<string> header = repeats_header(plan, measures, outcomes, true);
   const size_t parameters = plan.parameters.size() - 1;
   sheet.set_head_row(0);
   for (size_t column = 0; column < header.size(); ++column)
     sheet.head(0, column, header[column], column < parameters ? CellStyle::varied_header : CellStyle::header);
 
+  const vector<bool> uneven = uneven_measures(outcomes, measures.size());
   vector<NumberLook> looks(header.size());
   for (size_t i = 0; i < outcomes.points(); ++i)
-    for_cells(plan, measures.size(), outcomes, i,
-              [&](size_t column, const Cell& cell) { looks[column].add(cell.number); });
+    for_cells(plan, uneven, outcomes, i, [&](size_t column, const Cell& cell) { looks[column].add(cell.number); });
   size_t row = 1;
   for (size_t i = 0; i < outcomes.points() && row < most_rows; ++i, ++row)
-    for_cells(plan, measures.size(), outcomes, i, [&](size_t column, const Cell& cell) {
+    for_cells(plan, uneven, outcomes, i, [&](size_t column, const Cell& cell) {
       sheet.cell(row, column, cell, column < parameters ? CellStyle::varied : CellStyle::plain, &looks[column]);
     });
 

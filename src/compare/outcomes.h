@@ -63,8 +63,8 @@ class Outcomes {
     return varied_[parameter].values[varied_[parameter].of_point[point]];
   }
 
-  /// The indices of parameters that vary, without those that follow from another one: numbers first.
-  /// Of numbers that all differ nothing follows, unless the other number rises or falls with them.
+  /// The indices of parameters that vary, numbers first, without those that follow from an earlier one: numbers that
+  /// rise or fall with it, and texts that each of its values decides.
   vector<size_t> independent() const;
   /// Whether the runs fill at least half of the grid of two parameters' values.
   bool is_grid(size_t a, size_t b) const;

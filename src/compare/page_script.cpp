@@ -62,6 +62,7 @@ box-shadow:0 -4px 18px #0003;padding:8px clamp(12px,2.5vw,40px)}
 #side video,#side img{display:block;width:min(340px,78vw);height:auto}
 #side td{text-align:left}
 button.act{font:inherit;padding:3px 12px;border:1px solid #0b5cad;border-radius:6px;background:#fff;color:#0b5cad;cursor:pointer}
+@media(max-width:700px){.heat .fine td a,.heat tr:has(td:nth-child(8)) td a{font-size:0}}
 @media print{.row>figure{flex-basis:45%;max-width:48%}.heat .fine td a{min-height:11px;line-height:11px}
 #table{max-height:none;overflow:visible;border:0}#runs{font-size:7.5pt}#runs thead{position:static}
 #runs th,#runs td{padding:1px 4px}#runs .m img{width:90px}#side,#runs video,#runs input,.tools{display:none!important}}
@@ -75,7 +76,11 @@ if (!table) return;
 const body = table.tBodies[0], head = table.tHead.rows[0], heads = [...head.cells], rows = [...body.rows];
 const make = (name, more) => Object.assign(document.createElement(name), more);
 const text = (row, k) => row.cells[k].textContent.trim();
-const value = (row, k) => heads[k].classList.contains('n') ? (text(row, k) === '' ? NaN : Number(text(row, k))) : text(row, k);
+const value = (row, k) => {
+  if (!heads[k].classList.contains('n')) return text(row, k);
+  const all = row.cells[k].dataset.v ?? text(row, k);
+  return all === '' ? NaN : Number(all);
+};
 
 // Sorting: a click on a head. Empty cells come last, equal ones stay in the order of the runs.
 const sort = k => {

@@ -8,10 +8,12 @@
 
 #include "compare/scenarios.h"
 #include "export/page.h"
+#include "files/csv.h"
 #include "files/failed_run.h"
 #include "files/folder_names.h"
 #include "files/folders.h"
 #include "files/run_folder.h"
+#include "files/stored_table.h"
 #include "scene/film_format.h"
 #include "scene/output_kinds.h"
 #include "std.h"
@@ -144,7 +146,10 @@ string RunTable::media_html(const Media& media) {
 
 string RunTable::cell_html(const Column& column, const Cell& cell) const {
   if (!column.is_number) return fmt::format("<td class=\"t\">{}</td>", html_text(cell.text));
-  return fmt::format("<td>{}</td>", column.look.text(cell.number));
+  // What the script sorts and filters by, where the digits that are shown are not all.
+  const string shown = column.look.text(cell.number);
+  if (number_in(shown) == cell.number) return fmt::format("<td>{}</td>", shown);
+  return fmt::format("<td data-v=\"{}\">{}</td>", number_cell(cell.number), shown);
 }
 
 string RunTable::row_html(size_t number) const {

@@ -45,8 +45,8 @@ bool add_rows(StoredTable& table, const ComparisonPlan& plan, const vector<Measu
 
 FoundRun found_run(size_t point, size_t equal, const MeasureFinding& finding, const Findings& findings,
                    const ComparisonPlan& plan, const Outcomes& outcomes) {
-  FoundRun run{string(outcomes.id(point)), outcomes.spread(point, finding.measure).mean(),
-               equal - min<size_t>(equal, 1)};
+  const Spread spread = outcomes.spread(point, finding.measure);
+  FoundRun run{string(outcomes.id(point)), spread.mean(), spread.count(), equal - min<size_t>(equal, 1)};
   for (const size_t p : findings.parameters) {
     const Parameter& parameter = plan.parameters[p];
     run.values.emplace_back(

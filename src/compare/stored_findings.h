@@ -10,6 +10,7 @@ namespace carom {
 struct FoundRun {
   string id;
   double value = 0;                       // of the measure; of repeats their mean
+  size_t repeats = 1;                     // with a value
   size_t others = 0;                      // runs with the same value
   vector<pair<string, string>> values{};  // paths, and values with their units
 };

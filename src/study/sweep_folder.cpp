@@ -223,23 +223,35 @@ ComparisonPlan comparison_plan(const Sweep& sweep, const string& base_text) {
   return plan;
 }
 
+namespace {
+
+/// The values of a scene file by their paths. Empty: there is no such file.
+vector<SceneValue> values_in(const string& folder, const char* name) {
+  const Descriptor place = open_folder(AT_FDCWD, folder, true);
+  const auto text = place ? read_text(place.get(), name, max_source_bytes) : nullopt;
+  return text ? scene_values(folder + "/" + name, *text) : vector<SceneValue>();
+}
+
+}  // namespace
+
 ComparedRun compared_run(const Sweep& sweep, size_t number, const string& folder) {
   const SweepRun run = sweep.run(number);
   ComparedRun out{run.id, folder, {}};
-  optional<vector<SceneValue>> own;  // of the scene
+  optional<vector<SceneValue>> own, base;  // of the scenes
 
+  const auto take = [&](size_t p, const vector<SceneValue>& values) {
+    for (const SceneValue& value : values)
+      if (value.path == sweep.paths[p] && !value.text.starts_with('=')) out.values[p] = value.text;
+  };
   for (size_t p = 0; p < run.values.size(); ++p) {
     out.values.push_back(run.values[p] ? cell_text(*run.values[p]) : "");
-    // The scene of a run has the number of an expression.
+    // The scene of a run has the number of an expression, and no `defaults`, which the base has.
     if (!out.values.back().empty() && !out.values.back().starts_with('=')) continue;
-
-    if (!own) {
-      const Descriptor place = open_folder(AT_FDCWD, folder, true);
-      const auto text = place ? read_text(place.get(), "scene.yaml", max_source_bytes) : nullopt;
-      own = text ? scene_values(folder + "/scene.yaml", *text) : vector<SceneValue>();
-    }
-    for (SceneValue& value : *own)
-      if (value.path == sweep.paths[p]) out.values[p] = std::move(value.text);
+    if (!own) own = values_in(folder, "scene.yaml");
+    take(p, *own);
+    if (!out.values.back().empty() || run.values[p]) continue;
+    if (!base) base = values_in(folder + "/../..", stored_base);
+    take(p, *base);
   }
   return out;
 }

@@ -66,6 +66,24 @@ TEST(Best, IsInTheDocumentOfJson) {
   EXPECT_NEAR(json["found"][0]["highest"]["value"].get<double>(), 10, 1e-12);
   EXPECT_EQ(json["found"][0]["highest"]["values"]["let.angle"], "45");
   EXPECT_EQ(json["found"][0]["strongest"], "let.speed");
+  EXPECT_EQ(json["best"]["run"], "r0006");
+
+  // Undefined in all runs.
+  EXPECT_TRUE(Json::parse(here.carom({"sweep", "throws.yaml", "--json", "--best", "range / 0"}).out)["best"].is_null());
+}
+
+TEST(Best, OfABlockWithoutThePathHasTheValueOfTheBasesDefaults) {
+  const Workplace here;
+  here.write("drop.yaml",
+             "scene: 1\ngravity: [0, -10, 0]\ndefaults: {ball: {restitution: 0.9}}\n"
+             "balls: {ball: {radius: 0.1, mass: 1, position: [0, 1.1, 0]}}\n"
+             "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 0.6}\n");
+  here.write("drops.yaml",
+             "sweep: 1\nbase: drop.yaml\nlist: [{defaults.ball.restitution: 0.1}, {balls.ball.mass: 2}]\n"
+             "compare: {measures: [energy_lost_J]}\n");
+  ASSERT_EQ(here.carom({"sweep", "drops.yaml", "-o", "out"}).code, 0);
+  EXPECT_NE(here.read("out/summary.csv").find(",0.1,1\n"), string::npos) << here.read("out/summary.csv");
+  EXPECT_NE(here.read("out/summary.csv").find(",0.9,2\n"), string::npos) << here.read("out/summary.csv");
 }
 
 TEST(Best, OfWhatIsNoMeasureIsAnErrorBeforeAnythingIsRun) {

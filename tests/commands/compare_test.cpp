@@ -36,7 +36,7 @@ TEST(CompareCommand, FindsWhatVariedAndWritesTableWorkbookAndManifest) {
             "  runs        3\n"
             "  varied      balls.red.restitution\n"
             "  measures    balls.red.speed_m_per_s\n"
-            "  found       balls.red.speed_m_per_s from 1.4 (a) to 1.9 (c), mostly by restitution (+1.00)\n"
+            "  found       balls.red.speed_m_per_s from 1.4 (a) to 1.9 (c)\n"
             "  wrote       output/comparison: comparison.xlsx, index.html, manifest.json and summary.csv\n");
 
   const auto files = here.files("output/comparison");

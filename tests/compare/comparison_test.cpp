@@ -438,6 +438,14 @@ TEST_F(ComparisonOfSix, ChartsOfThePlanAreDrawn) {
   EXPECT_EQ(charts[1]["series"][1]["name"], "restitution.default = 0.75");
   EXPECT_EQ(sheet("Compare")["charts"][0]["series"][1]["name"], "balls.red.mass = 20 kg");
 
+  // The name of an expression is no formula of a title.
+  ComparisonPlan expressed = plan;
+  expressed.measures = {"= energy_lost_J / collisions"};
+  place->compare(expressed, runs, "expressed");
+  const Json of_expression = place->workbook("expressed")["sheets"]["Compare"]["charts"];
+  EXPECT_EQ(of_expression[0]["title"], "energy_lost_J / collisions by restitution.default");
+  EXPECT_EQ(of_expression[0]["y"], "energy_lost_J / collisions");
+
   // Charts of what is not there are refused.
   own.charts = {{"balls.red.mas", "max_speed_m_per_s", ""}};
   EXPECT_THROW(check_charts(own), MeasureError);

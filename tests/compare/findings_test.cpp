@@ -131,6 +131,52 @@ TEST(Variety, OfAGridIsAPlaneEvenWithHolesAndOfAHypercubeSamples) {
   EXPECT_EQ(variety_of(*Made({{"1"}}, {{1}}).outcomes), Variety::runs);
 }
 
+TEST(Variety, OfAHypercubeTimesAGridHasAllParameters) {
+  // Each sample of a and b with two values of c: none of a and b decides the other.
+  vector<vector<string>> points;
+  vector<vector<double>> values;
+  for (size_t i = 0; i < 30; ++i)
+    for (const char* c : {"1", "2"}) {
+      const size_t b = (i * 7 + 3) % 30;
+      points.push_back({to_string(i) + ".5", to_string(b) + ".25", c});
+      values.push_back({double(b)});
+    }
+  const Findings findings = Made(points, values).findings();
+  EXPECT_EQ(findings.variety, Variety::samples);
+  EXPECT_EQ(findings.parameters, (vector<size_t>{0, 1, 2}));
+  EXPECT_EQ(findings.measures[0].strongest, 1u);
+}
+
+TEST(Variety, OfTextsThatNumbersDecideHasTheNumbersAlone) {
+  // Words that go with each sample are no parameter of their own; words of a grid are.
+  EXPECT_EQ(Made({{"one", "1"}, {"two", "2"}, {"three", "3"}}, {{1}, {2}, {3}}).findings().parameters,
+            vector<size_t>{1});
+  EXPECT_EQ(Made({{"x", "1"}, {"y", "1"}, {"x", "2"}, {"y", "2"}}, {{1}, {2}, {3}, {4}}).findings().parameters,
+            (vector<size_t>{1, 0}));
+}
+
+TEST(Findings, TakeEqualRunsUpToRoundingForEqualRanks) {
+  // Rows of equal values but for their last bits, which no parameter explains.
+  vector<vector<string>> points;
+  vector<vector<double>> values;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 6; ++k) {
+      points.push_back({to_string(i), to_string(k)});
+      values.push_back({1 + 0.1 * i + 1e-15 * k});
+    }
+  const MeasureFinding finding = Made(points, values).findings().measures[0];
+  EXPECT_DOUBLE_EQ(finding.correlations[0], 1);
+  EXPECT_NEAR(finding.correlations[1], 0, 1e-15);
+  EXPECT_EQ(finding.at_highest, 6u);
+  EXPECT_EQ(finding.top, 30u);
+}
+
+TEST(Findings, NameNoParameterOfFourRuns) {
+  // Four values are in order by chance in 2 of 24 cases, five in 2 of 120.
+  EXPECT_FALSE(Made({{"1"}, {"2"}, {"3"}, {"4"}}, {{1}, {2}, {3}, {4}}).findings().measures[0].strongest);
+  EXPECT_TRUE(Made({{"1"}, {"2"}, {"3"}, {"4"}, {"5"}}, {{1}, {2}, {3}, {4}, {5}}).findings().measures[0].strongest);
+}
+
 TEST(Charts, OfSamplesAreAScatterForEachParameterWithoutLines) {
   const Made made = hypercube(30);
   const vector<Chart> charts = made.charts();
