@@ -23,15 +23,17 @@ constexpr SpreadColumn spread_columns[] = {{"mean", [](const Spread& s) { return
                                            {"min", [](const Spread& s) { return s.min(); }},
                                            {"max", [](const Spread& s) { return s.max(); }}};
 
-/// Whether a measure has no value in some complete runs, so that it needs its own n.
-bool is_uneven(const Outcomes& outcomes, size_t measure) {
-  for (size_t i = 0; i < outcomes.points(); ++i)
-    if (outcomes.spread(i, measure).count() != outcomes.runs(i)) return true;
-  return false;
+/// By measure: whether it has no value in some complete runs, so that it needs its own n.
+vector<bool> uneven_measures(const Outcomes& outcomes, size_t measures) {
+  vector<bool> uneven(measures);
+  for (size_t k = 0; k < measures; ++k)
+    for (size_t i = 0; i < outcomes.points() && !uneven[k]; ++i)
+      uneven[k] = outcomes.spread(i, k).count() != outcomes.runs(i);
+  return uneven;
 }
 
-/// `labels`: readable ones, for a sheet.
-vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures, const Outcomes& outcomes,
+/// `uneven`: by measure. `labels`: readable ones, for a sheet.
+vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>& measures, const vector<bool>& uneven,
                               bool labels) {
   vector<string> header;
   for (size_t p = 0; p < plan.parameters.size(); ++p)
@@ -43,7 +45,7 @@ vector<string> repeats_header(const ComparisonPlan& plan, const vector<Measure>&
       header.push_back(labels ? fmt::format("{}, {}", label_of(measures[k].name), name)
                               : fmt::format("{}.{}", measures[k].name, name));
     };
-    if (is_uneven(outcomes, k)) add("n");
+    if (uneven[k]) add("n");
     for (const SpreadColumn& column : spread_columns) add(column.name);
   }
   return header;
@@ -62,12 +64,6 @@ void for_cells(const ComparisonPlan& plan, const vector<bool>& uneven, const Out
     if (uneven[k]) use(column++, Cell{{}, double(spread.count())});
     for (const SpreadColumn& of : spread_columns) use(column++, Cell{{}, of.value(spread)});
   }
-}
-
-vector<bool> uneven_measures(const Outcomes& outcomes, size_t measures) {
-  vector<bool> uneven;
-  for (size_t k = 0; k < measures; ++k) uneven.push_back(is_uneven(outcomes, k));
-  return uneven;
 }
 
 }  // namespace
@@ -230,11 +226,11 @@ bool AbsentValues::unrelated() const {
 
 void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
+  const vector<bool> uneven = uneven_measures(outcomes, measures.size());
   CsvRow row(file);
-  for (const string& name : repeats_header(plan, measures, outcomes, false)) row.text(name);
+  for (const string& name : repeats_header(plan, measures, uneven, false)) row.text(name);
   row.end();
 
-  const vector<bool> uneven = uneven_measures(outcomes, measures.size());
   const size_t count = plan.parameters.size() - 1;  // the column of n
   for (size_t i = 0; i < outcomes.points(); ++i) {
     for_cells(plan, uneven, outcomes, i, [&](size_t column, const Cell& cell) {
@@ -249,13 +245,13 @@ void write_repeats(OutputFile& file, const ComparisonPlan& plan, const vector<Me
 
 void write_repeats(Worksheet& sheet, const ComparisonPlan& plan, const vector<Measure>& measures,
                    const Outcomes& outcomes) {
-  const vector<string> header = repeats_header(plan, measures, outcomes, true);
+  const vector<bool> uneven = uneven_measures(outcomes, measures.size());
+  const vector<string> header = repeats_header(plan, measures, uneven, true);
   const size_t parameters = plan.parameters.size() - 1;
   sheet.set_head_row(0);
   for (size_t column = 0; column < header.size(); ++column)
     sheet.head(0, column, header[column], column < parameters ? CellStyle::varied_header : CellStyle::header);
 
-  const vector<bool> uneven = uneven_measures(outcomes, measures.size());
   vector<NumberLook> looks(header.size());
   for (size_t i = 0; i < outcomes.points(); ++i)
     for_cells(plan, uneven, outcomes, i, [&](size_t column, const Cell& cell) { looks[column].add(cell.number); });

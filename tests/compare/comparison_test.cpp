@@ -20,14 +20,7 @@ class ComparisonOfSix : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     place = new Place;
-    int number = 0;
-    for (const char* e : {"0.5", "0.75", "1"})
-      for (const char* mass : {"10", "20"}) {
-        const string id = "r" + to_string(++number);
-        place->run(two_balls, id, {string("restitution.default=") + e, string("balls.red.mass=") + mass});
-        runs.push_back({id, *place / id, {e, mass}});
-      }
-
+    runs = six_runs(*place, "");
     plan.title = "Six runs";
     plan.parameters = {{"restitution.default", ""}, {"balls.red.mass", "kg"}};
     plan.measures = {"energy_lost_J", "collisions", "balls.red.speed_m_per_s", "balls.blue.kinetic_J"};

@@ -96,4 +96,16 @@ inline const string two_balls =
     "simulate: {duration: 1}\n"
     "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
 
+/// Six runs of these by restitution and the mass of red, r1 to r6 in a folder below the place: "" or "runs/".
+inline vector<ComparedRun> six_runs(const Place& place, const string& folder) {
+  vector<ComparedRun> runs;
+  for (const char* e : {"0.5", "0.75", "1"})
+    for (const char* mass : {"10", "20"}) {
+      const string id = "r" + to_string(runs.size() + 1);
+      place.run(two_balls, folder + id, {string("restitution.default=") + e, string("balls.red.mass=") + mass});
+      runs.push_back({id, place / (folder + id), {e, mass}});
+    }
+  return runs;
+}
+
 }  // namespace carom::testing

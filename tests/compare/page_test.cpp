@@ -41,13 +41,7 @@ class PageOfSix : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     place = new Place;
-    int number = 0;
-    for (const char* e : {"0.5", "0.75", "1"})
-      for (const char* mass : {"10", "20"}) {
-        const string id = "r" + to_string(++number);
-        place->run(two_balls, "runs/" + id, {string("restitution.default=") + e, string("balls.red.mass=") + mass});
-        runs.push_back({id, *place / ("runs/" + id), {e, mass}});
-      }
+    runs = six_runs(*place, "runs/");
     place->write("runs/r2/sheet.png", "a picture");
     place->write("runs/r3/animation.mp4", "a film");
     place->write("runs/r4/film #1.gif", "a film");

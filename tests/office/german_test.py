@@ -13,6 +13,8 @@ import tempfile
 
 import openpyxl
 
+from office import convert
+
 SCENE = """scene: 1
 title: "Kugeln; 1,5 m"
 seed: 2
@@ -34,11 +36,9 @@ TABLES = ["summary", "trajectory", "collisions", "energy", "contacts", "regions"
 GERMAN = "CSV:59,34,76,1,,1031,false,true"
 
 
-def convert(folder, file, out, *options):
-    """A file as .xlsx by LibreOffice, with a profile of its own, as a sheet."""
-    subprocess.run(["soffice", "--headless", f"-env:UserInstallation=file://{folder}/profile", *options, "--convert-to", "xlsx",
-                    "--outdir", str(out), str(file)], check=True, capture_output=True, timeout=300)
-    return openpyxl.load_workbook(out / f"{file.stem}.xlsx")
+def sheets_of(folder, file, out, *options):
+    """A file as a workbook by LibreOffice."""
+    return openpyxl.load_workbook(convert(folder, "xlsx", file, out, *options) / f"{file.stem}.xlsx")
 
 
 def number(text):
@@ -91,18 +91,18 @@ def main():
         run("sweep", "scene.yaml", "--grid", "restitution.default=0.5:1:3", "--repeat", "2", "-o", "sweep")
 
         files = [folder / f"run/{table}.csv" for table in TABLES] + [folder / "sweep/summary.csv", folder / "sweep/repeats.csv"]
-        numbers = sum(numbers_of(file, convert(folder, file, folder / "converted" / file.parent.name, f"--infilter={GERMAN}").active)
+        numbers = sum(numbers_of(file, sheets_of(folder, file, folder / "converted" / file.parent.name, f"--infilter={GERMAN}").active)
                       for file in files)
         assert numbers > 3000, numbers
 
         # Without the dialect most of them are wrong.
         run("run", "scene.yaml", "-o", "plain", "--only", "energy", "--set", "output.tables=csv")
         plain = folder / "plain/energy.csv"
-        wrong = misread(plain, convert(folder, plain, folder / "converted/plain", f"--infilter={GERMAN.replace('59', '44', 1)}").active)
+        wrong = misread(plain, sheets_of(folder, plain, folder / "converted/plain", f"--infilter={GERMAN.replace('59', '44', 1)}").active)
         assert wrong > 100, wrong
 
         # The workbook, as LibreOffice stores it again.
-        book = convert(folder, folder / "book/tables.xlsx", folder / "converted")
+        book = sheets_of(folder, folder / "book/tables.xlsx", folder / "converted")
         assert book.sheetnames == [table.capitalize() for table in
                                    ["summary", "energy", "collisions", "contacts", "regions", "trajectory"]], book.sheetnames
         in_book = sum(numbers_of(folder / f"book/{table}.csv", book[table.capitalize()]) for table in TABLES)

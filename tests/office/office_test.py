@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Comparisons in LibreOffice: the workbook as displayed, summary.csv as imported.
 
-office_test.py CAROM: makes runs in a temporary folder. Every number of the CSV must be a number in LibreOffice, every chart's
-titles must be on paper.
+office_test.py CAROM: makes runs in a temporary folder. Every number of the CSV must be a number in LibreOffice, formulas
+must give the table's values, and the first printed page must have what was found.
 """
 import csv
 import math
@@ -12,6 +12,8 @@ import sys
 import tempfile
 
 import openpyxl
+
+from office import convert
 
 SCENE = """scene: 1
 title: "=1+1"
@@ -32,14 +34,6 @@ def number(text):
     return value if math.isfinite(value) else None
 
 
-def convert(folder, kind, file):
-    """A file converted by LibreOffice, in its own folder, with its own profile."""
-    out = folder / "converted"
-    subprocess.run(["soffice", "--headless", f"-env:UserInstallation=file://{folder}/profile", "--convert-to", kind, "--outdir",
-                    str(out), str(file)], check=True, capture_output=True, timeout=300)
-    return out
-
-
 def main():
     carom = sys.argv[1]
     with tempfile.TemporaryDirectory(prefix="carom-office-") as name:
@@ -55,7 +49,7 @@ def main():
 
         # The table: read as CSV, stored as .xlsx, read by openpyxl.
         rows = list(csv.reader((folder / "out/summary.csv").open(newline="")))
-        out = convert(folder, "xlsx", folder / "out/summary.csv")
+        out = convert(folder, "xlsx", folder / "out/summary.csv", folder / "converted")
         sheet = openpyxl.load_workbook(out / "summary.xlsx").active
         numbers = 0
         for i, row in enumerate(rows):
@@ -71,7 +65,7 @@ def main():
 
         # The workbook: recomputed, each sheet as CSV; the summary is the table, formulas have values.
         every_sheet = "csv:Text - txt - csv (StarCalc):44,34,76,1,,0,false,true,false,false,false,-1"
-        out = convert(folder, every_sheet, folder / "out/comparison.xlsx")
+        out = convert(folder, every_sheet, folder / "out/comparison.xlsx", folder / "converted")
         sheets = {file.name: list(csv.reader(file.open(newline=""))) for file in out.glob("comparison-*.csv")}
         assert len(sheets) == 7, sorted(sheets)
         for file, lines in sheets.items():
@@ -101,7 +95,7 @@ def main():
         assert len(lost) == 6 and all(math.isclose(a, b, rel_tol=1e-4, abs_tol=1e-12) for a, b in zip(cells, lost)), cells
 
         # On paper: the first page has what varied, the highest and lowest runs, what matters, and the heat map.
-        out = convert(folder, "pdf", folder / "out/comparison.xlsx")
+        out = convert(folder, "pdf", folder / "out/comparison.xlsx", folder / "converted")
         page = subprocess.run(["pdftotext", "-l", "1", str(out / "comparison.pdf"), "-"], check=True, capture_output=True,
                               text=True).stdout
         for text in ("6 runs; varied: restitution.default 0.5, 0.75, 1; balls.red.position.z -0.025 m, 0.025 m",
