@@ -141,8 +141,9 @@ void write_answer_heads(Worksheet& sheet, size_t row, const FrontPage& page, con
     heads.put(correlation_columns, Cell{"ρ " + names[k]}, CellStyle::fitted_header);
 }
 
+/// `looks`: of the parameters' values.
 void write_answer(Worksheet& sheet, size_t row, const FrontPage& page, const MeasureFinding& finding,
-                  const AnswerColumns& answer) {
+                  const AnswerColumns& answer, const vector<NumberLook>& looks) {
   const NumberLook look = look_of(page, finding);
   RowOfCells cells{sheet, row};
   cells.put(measure_columns, Cell{label_of(page.measures[finding.measure].name)}, CellStyle::total);
@@ -151,11 +152,9 @@ void write_answer(Worksheet& sheet, size_t row, const FrontPage& page, const Mea
     cells.put(number_columns, Cell{{}, value_of(page, finding, point)}, CellStyle::fitted, &look);
     const string others = equal > 1 ? fmt::format(" +{}", equal - 1) : "";
     cells.put(answer.id, Cell{string(page.outcomes.id(point)) + others}, CellStyle::fitted_name);
-    for (size_t k = 0; k < answer.values; ++k) {
-      const NumberLook values = look_of(page, k);
+    for (size_t k = 0; k < answer.values; ++k)
       cells.put(value_columns, page.outcomes.value(point, page.findings.parameters[k]), CellStyle::fitted_varied,
-                &values);
-    }
+                &looks[k]);
   }
 
   if (page.plan.seed) cells.put(number_columns, Cell{{}, finding.spread_of_repeats}, CellStyle::fitted, &look);
@@ -213,7 +212,7 @@ void CompareSheet::write_answers(const FrontPage& page) {
   write_answer_heads(sheet_, row_++, page, answer);
 
   const size_t first_row = row_;
-  for (const MeasureFinding* finding : shown) write_answer(sheet_, row_++, page, *finding, answer);
+  for (const MeasureFinding* finding : shown) write_answer(sheet_, row_++, page, *finding, answer, looks_);
   if (answer.correlations > 0) {
     add_correlation_scale(sheet_, first_row, answer.before_correlations, row_ - first_row,
                           answer.correlations * correlation_columns);
@@ -232,8 +231,6 @@ void CompareSheet::write_ranking(const FrontPage& page, const MeasureFinding& fi
   const string label = label_of(page.measures[finding.measure].name);
   const NumberLook look = look_of(page, finding);
   const size_t width = ranked_width(layout.id, layout.parameters.size());
-  vector<NumberLook> looks;
-  for (const size_t place : layout.parameters) looks.push_back(look_of(page, place));
 
   size_t row = row_, column = first_column;
   for (const bool is_high : {true, false}) {
@@ -258,7 +255,7 @@ void CompareSheet::write_ranking(const FrontPage& page, const MeasureFinding& fi
       for (size_t k = 0; k < layout.parameters.size(); ++k)
         sheet_.wide(at, column + ranked_width(layout.id, k), parameter_columns,
                     page.outcomes.value(points[i], page.findings.parameters[layout.parameters[k]]),
-                    CellStyle::fitted_varied, &looks[k]);
+                    CellStyle::fitted_varied, &looks_[layout.parameters[k]]);
     }
 
     // The lowest stand beside the highest, or below them.
@@ -321,6 +318,7 @@ void CompareSheet::write(const FrontPage& page, SheetCharts& charts) {
   worksheet_set_column(sheet_.get(), 0, to_column(columns - 1), column_width, nullptr);
   sheet_.text(row_++, 0, page.plan.title, CellStyle::title);
   for (const string& line : page.lines) sheet_.note(row_++, columns, line, columns * column_pixels / 6.5);
+  for (size_t place = 0; place < page.findings.parameters.size(); ++place) looks_.push_back(look_of(page, place));
   const size_t first = row_++;
   write_answers(page);
   write_differences(page);

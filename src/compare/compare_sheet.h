@@ -44,6 +44,7 @@ class CompareSheet {
   size_t row_ = 0;               // the next free one
   size_t page_ = 0, extra_ = 0;  // the first row of the present page; heights beyond one row on it
   vector<size_t> breaks_;
+  vector<NumberLook> looks_;  // of parameters' values, by Findings::parameters
 };
 
 }  // namespace carom
