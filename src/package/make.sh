@@ -23,7 +23,7 @@ die() {
 value() { sed -n "s/^set($1 \"\(.*\)\")$/\1/p" "$tree/CPackConfig.cmake"; }
 
 version=$(value CPACK_PACKAGE_VERSION) processor=$(value CPACK_CAROM_PROCESSOR) root=$(value CPACK_CAROM_SYSROOT)
-[ -n "$version" ] && [ -n "$processor" ] || die "$tree is no build tree of carom"
+[ -n "$version$processor" ] || die "$tree is no build tree of carom"
 triplet=$processor-linux-gnu
 top=carom-$version-$processor
 SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$(git -C "$here" log -1 --format=%ct)}
@@ -47,10 +47,13 @@ END
     return
   fi
   # dpkg-shlibdeps finds libraries and their packages at their own places alone: here the root's are there.
-  mkdir -p "/usr/lib/$triplet"
+  place=/usr/lib/$triplet
+  [ -d "$place" ] || {
+    mkdir "$place"
+    trap 'rm -rf "$stage"; rmdir "$place"' EXIT
+  }
   DPKG_ADMINDIR=$root/var/lib/dpkg DEB_HOST_ARCH=$(value CPACK_DEBIAN_PACKAGE_ARCHITECTURE) \
-    unshare --mount sh -euc "mount --bind '$root/usr/lib/$triplet' /usr/lib/$triplet; $pack"
-  rmdir --ignore-fail-on-non-empty "/usr/lib/$triplet"
+    unshare --mount sh -euc "mount --bind '$root/usr/lib/$triplet' $place; $pack"
 }
 
 # library NAME: its file.
@@ -83,7 +86,7 @@ libraries() {
   printf '%s\n' $found
 }
 
-# copy_terms LIST: the terms of the packages whose names are read, the licenses that these refer to, and a LIST of their sources.
+# copy_terms: the terms of the packages whose names are read, the licenses that these refer to, and a list of their sources.
 copy_terms() {
   at=$stage/$top/share
   mkdir -p "$at/doc/carom" "$at/common-licenses"
@@ -92,25 +95,20 @@ copy_terms() {
     cp -L "$root/usr/share/doc/$package/copyright" "$at/doc/$package/"
     # shellcheck disable=SC2016  # dpkg-query's own variables
     dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Package} ${Version}: source ${source:Package} ${source:Version}\n' "$package"
-  done > "$at/doc/carom/$1"
+  done >> "$at/doc/carom/packages_of_debian${1:-}"
   grep -rhoE '/usr/share/common-licenses/[A-Za-z0-9.-]*[A-Za-z0-9]' "$at/doc" | sort -u | while read -r license; do
     [ ! -f "$root$license" ] || cp -L "$root$license" "$at/common-licenses/"
   done
 }
 
-# package_of PATTERN: the name of the package that has a file.
-package_of() {
-  dpkg-query --admindir="$root/var/lib/dpkg" -S "$1" | sed 's/:.*//;q'
-}
-
-# copy_libraries LIST: those whose names are read, and their terms.
+# copy_libraries [PART]: those whose names are read, and their terms.
 copy_libraries() {
   mkdir -p "$stage/$top/lib"
   while read -r name; do
     cp -L "$(library "$name")" "$stage/$top/lib/$name"
-    package_of "*/$triplet/$name" >> "$stage/packages"
-  done
-  copy_terms "$1" < "$stage/packages"
+    dpkg-query --admindir="$root/var/lib/dpkg" -S "*/$triplet/$name" | sed 's/:.*//;q'
+  done > "$stage/packages"
+  copy_terms "$@" < "$stage/packages"
 }
 
 # pack NAME: the stage's folder, with nothing of this machine, of its user or of now.
@@ -131,18 +129,17 @@ make_archive() {
   cp "$here/carom" "$stage/$top/bin/carom"
   rm -f "$stage/$top/share/doc/carom/changelog.gz"
 
-  font=usr/share/fonts/truetype/dejavu/DejaVuSans.ttf
-  mkdir -p "$stage/$top/share/fonts"
-  cp "$root/$font" "$stage/$top/share/fonts/"
-  package_of "/$font" > "$stage/packages"
-  libraries "$stage/$top/lib/carom" | copy_libraries libraries
+  libraries "$stage/$top/lib/carom" | copy_libraries
+  mkdir "$stage/$top/share/fonts"
+  cp /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "$stage/$top/share/fonts/"
+  (root='' && echo fonts-dejavu-core | copy_terms)
   pack "$top"
 }
 
 make_meshes() {
   osmesa=$(library libOSMesa.so.8)
   libraries "$tree/carom" > "$stage/others"
-  { echo libOSMesa.so.8 && libraries "$osmesa"; } | grep -vxFf "$stage/others" | copy_libraries libraries_of_meshes
+  { echo libOSMesa.so.8 && libraries "$osmesa"; } | grep -vxFf "$stage/others" | copy_libraries _for_meshes
   pack "$top-meshes"
 }
 
