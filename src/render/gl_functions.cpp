@@ -13,10 +13,11 @@ namespace {
 
 [[noreturn]] void fail() {
   const char* const reason = dlerror();
-  throw RenderError(fmt::format(
-      "meshes in pictures need OSMesa, which cannot be loaded: {}\n  install it (on Debian: apt install libosmesa6; to "
-      "carom's archive: add that of meshes), or leave out each `mesh` or the pictures",
-      reason ? reason : "no reason given"));
+  throw RenderError(
+      fmt::format("meshes in pictures need OSMesa, which cannot be loaded: {}\n  install it (on Debian: apt install "
+                  "libosmesa6; for carom's archive: unpack that of meshes in the same place), or leave out each `mesh` "
+                  "or the pictures",
+                  reason ? reason : "no reason given"));
 }
 
 template <typename Function>

@@ -71,11 +71,10 @@ TEST(Requirements, OsmesaIsNeededByPicturesOfMeshesAlone) {
   EXPECT_EQ(run.code, 2);
   EXPECT_EQ(run.err.rfind("ducks.yaml: error: meshes in pictures need OSMesa, which cannot be loaded: ", 0), 0u)
       << run.err;
-  EXPECT_NE(
-      run.err.find("\n    = install it (on Debian: apt install libosmesa6; to carom's archive: add that of meshes), "
-                   "or leave out each `mesh` or the pictures\n"),
-      string::npos)
-      << run.err;
+  const string remedy =
+      "install it (on Debian: apt install libosmesa6; for carom's archive: unpack that of meshes in the same place), "
+      "or leave out each `mesh` or the pictures";
+  EXPECT_NE(run.err.find("\n    = " + remedy + "\n"), string::npos) << run.err;
   EXPECT_FALSE(here.has("ducks"));
   EXPECT_EQ(without("run balls.yaml -o balls -q").code, 0);
   EXPECT_EQ(without("run ducks.yaml -o ducks -q --only trajectory").code, 0);
