@@ -35,9 +35,11 @@ vector<fs::path> font_folders() {
   const string own = variable_or("XDG_DATA_HOME", home.empty() ? "" : home + "/.local/share");
   if (!own.empty()) folders.push_back(fs::path(own) / "fonts");
   if (!home.empty()) folders.push_back(fs::path(home) / ".fonts");
+
   std::error_code error;
   const fs::path started = fs::read_symlink("/proc/self/exe", error);
   if (!error) folders.push_back(started.parent_path().parent_path() / "share/fonts");
+
   const string shared = variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share");
   for (size_t i = 0; i <= shared.size();) {
     const size_t end = min(shared.find(':', i), shared.size());
