@@ -2,7 +2,6 @@
 // The compiler's vectors (__attribute__((vector_size)), which have operators for all arithmetic, on any processor),
 // with what they lack: vectors.inc. Kernels are written once for any width, and compiled for each: each_width.inc.
 #include <cstring>
-#include <utility>
 
 #include "numerics/processor.h"
 #include "std.h"
