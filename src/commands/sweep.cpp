@@ -15,7 +15,6 @@
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
 #include "compare/comparison_folder.h"
-#include "files/processors.h"
 #include "files/publication.h"
 #include "run/stopwatch.h"
 #include "scene/scene.h"
