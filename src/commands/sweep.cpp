@@ -16,6 +16,7 @@
 #include "commands/text.h"
 #include "compare/comparison_folder.h"
 #include "files/publication.h"
+#include "numerics/processors.h"
 #include "run/stopwatch.h"
 #include "scene/scene.h"
 #include "std.h"
