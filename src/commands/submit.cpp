@@ -9,7 +9,7 @@
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "files/processors.h"
+#include "numerics/processors.h"
 #include "std.h"
 #include "yaml/joined.h"
 
