@@ -9,6 +9,7 @@
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
+#include "files/program_file.h"
 #include "numerics/processors.h"
 #include "std.h"
 #include "yaml/joined.h"
@@ -30,12 +31,6 @@ string words_of(const vector<string>& words) {
 /// Never parsed as an option, even with a leading dash.
 string as_operand(const string& path) {
   return path.starts_with('-') ? "./" + path : path;
-}
-
-string program() {
-  std::error_code error;
-  const fs::path path = fs::read_symlink("/proc/self/exe", error);
-  return error ? "carom" : path.string();
 }
 
 /// After SIGTERM a task has half a minute to finish its files. --open-mode: a requeued task appends to its log.
@@ -64,8 +59,8 @@ exec {6} --jobs {2} --shard "$SLURM_ARRAY_TASK_ID/{1}"
 
 /// The command of a task, except for its part.
 vector<string> sweep_words(const Options& options, const string& folder) {
-  vector<string> words = {program(),    "sweep", as_operand(options.operands.front()), "-o", folder,
-                          "--progress", "lines"};
+  vector<string> words = {program_command(), "sweep", as_operand(options.operands.front()), "-o", folder,
+                          "--progress",      "lines"};
 
   const auto add = [&](const string& name, const string& value) {
     words.push_back(name);
@@ -104,9 +99,10 @@ int submit(const Options& options) {
   string batch;
   for (const string& line : options.submit.batch) batch += fmt::format("#SBATCH {}\n", line);
   const string name = "carom-" + (stem.empty() ? "sweep" : stem);
-  const string script = fmt::format(script_form, shell_word(name), parts, options.execution.jobs.value_or(1), batch,
-                                    counted(runs, "run", "runs"), shell_word(words_of({program(), "gather", folder})),
-                                    words_of(sweep_words(options, folder)), counted(parts, "part", "parts"));
+  const string script =
+      fmt::format(script_form, shell_word(name), parts, options.execution.jobs.value_or(1), batch,
+                  counted(runs, "run", "runs"), shell_word(words_of({program_command(), "gather", folder})),
+                  words_of(sweep_words(options, folder)), counted(parts, "part", "parts"));
 
   if (!options.json) write_out(script);
   return print_end(

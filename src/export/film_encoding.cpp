@@ -37,9 +37,10 @@ FfmpegRun raw_input(const VideoOutput& video, string_view pixels, int width, int
   return run;
 }
 
-/// For every format.
+/// For every format. Pictures are evenly spaced, so that ffmpeg neither drops nor repeats one: it needs no option for
+/// that, which has one name before version 5.1 and another after it.
 void add_reproducible(FfmpegRun& run) {
-  add(run, {"-an", "-fps_mode", "passthrough", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
+  add(run, {"-an", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"});
 }
 
 FilmEncoding mp4(const VideoOutput& video, const Image& picture) {

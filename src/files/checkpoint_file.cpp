@@ -12,6 +12,7 @@
 #include "files/folders.h"
 #include "files/hash.h"
 #include "files/output_file.h"
+#include "files/program_file.h"
 #include "files/stored_file.h"
 #include "physics/archive.h"
 #include "physics/world.h"
@@ -53,8 +54,9 @@ Stored read_stored(const FilePlace& place) {
 /// The hash of the running program's file.
 const string& program_hash() {
   static const string hash = [] {
-    const Descriptor file(open("/proc/self/exe", O_RDONLY | O_CLOEXEC));
-    if (!file) fail("read", {-1, ""}, "/proc/self/exe");
+    const string path = program_file();
+    const Descriptor file(open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file) fail("read", {-1, ""}, path);
     Sha256 sum;
     string buffer(size_t{1} << 16, '\0');
     while (const size_t n = read_some(file.get(), buffer.data(), buffer.size())) sum.add({buffer.data(), n});

@@ -27,13 +27,17 @@ string variable_or(const char* name, const string& usual) {
   return text != nullptr && *text != '\0' ? text : usual;
 }
 
-/// The folders of fonts of the XDG base directories, and the older one of a user.
+/// The folders of fonts of the XDG base directories, the older one of a user, and that of the prefix which the program
+/// is in: an archive brings its own. (In an archive the loader of libraries is started, in lib/ beside bin/.)
 vector<fs::path> font_folders() {
   vector<fs::path> folders;
   const string home = variable_or("HOME", "");
   const string own = variable_or("XDG_DATA_HOME", home.empty() ? "" : home + "/.local/share");
   if (!own.empty()) folders.push_back(fs::path(own) / "fonts");
   if (!home.empty()) folders.push_back(fs::path(home) / ".fonts");
+  std::error_code error;
+  const fs::path started = fs::read_symlink("/proc/self/exe", error);
+  if (!error) folders.push_back(started.parent_path().parent_path() / "share/fonts");
   const string shared = variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share");
   for (size_t i = 0; i <= shared.size();) {
     const size_t end = min(shared.find(':', i), shared.size());

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "render/gl_threads.h"
+#include "render/osmesa.h"
 #include "render/render_error.h"
 #include "std.h"
 
@@ -43,7 +44,7 @@ GLuint compile(GLenum kind, std::initializer_list<string_view> parts) {
 }  // namespace
 
 Context::Context() {
-  load_functions();
+  find_osmesa();
   // The other drivers that OSMesa may choose give other bytes, or are many times slower.
   setenv("GALLIUM_DRIVER", "llvmpipe", 1);
 
@@ -65,8 +66,9 @@ Context::Context() {
   context_ = CreateContextAttribs(attributes, nullptr);
   if (!context_)
     throw RenderError(
-        "cannot make an OpenGL 4.5 context for meshes in pictures. Remedy: install libosmesa6 22.3 or later with "
-        "llvmpipe (Debian: apt-get install libosmesa6), or run without frames, video and sheet.");
+        "OSMesa has no OpenGL 4.5, which meshes in pictures need\n  install OSMesa 22.3 or later with llvmpipe (on "
+        "Debian: "
+        "apt install libosmesa6), or leave out each `mesh` or the pictures");
 
   // Without its threads, a context cannot even be destroyed.
   check_threads();

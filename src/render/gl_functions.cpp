@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "render/osmesa.h"
 #include "render/render_error.h"
 #include "std.h"
 
@@ -13,8 +14,9 @@ namespace {
 [[noreturn]] void fail() {
   const char* const reason = dlerror();
   throw RenderError(
-      fmt::format("cannot load OSMesa for meshes in pictures: {}. Remedy: install libosmesa6 22.3 or later (Debian: "
-                  "apt-get install libosmesa6), or run without frames, video and sheet.",
+      fmt::format("meshes in pictures need OSMesa, which cannot be loaded: {}\n  install it (on Debian: apt install "
+                  "libosmesa6; for carom's archive: unpack that of meshes in the same place), or leave out each `mesh` "
+                  "or the pictures",
                   reason ? reason : "no reason given"));
 }
 
@@ -38,9 +40,9 @@ bool load() {
 
 }  // namespace
 
-void load_functions() {
-  static const bool loaded = load();
+}  // namespace carom::gl
+
+void carom::find_osmesa() {
+  static const bool loaded = gl::load();
   (void)loaded;
 }
-
-}  // namespace carom::gl

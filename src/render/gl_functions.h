@@ -1,7 +1,7 @@
 #pragma once
-// The functions of OpenGL 4.5 and OSMesa that the render passes use, by their names without gl and OSMesa.
-// They are loaded for the first mesh of a picture. The library and its compiler are large, and a run without meshes
-// does not need them.
+// The functions of OpenGL 4.5 and OSMesa that the render passes use, by their names without gl and OSMesa. They are
+// null before find_osmesa(). They are loaded for the first mesh of a picture. The library and its compiler are large,
+// and a run without meshes does not need them.
 #define GL_GLEXT_PROTOTYPES
 #include <GL/osmesa.h>
 
@@ -30,8 +30,5 @@ CAROM_GL_FUNCTIONS(CAROM_FUNCTION)
 #define CAROM_FUNCTION(name) inline decltype(&::OSMesa##name) name = nullptr;
 CAROM_OSMESA_FUNCTIONS(CAROM_FUNCTION)
 #undef CAROM_FUNCTION
-
-/// Loads all functions, once. Throws RenderError if the library or a function is missing.
-void load_functions();
 
 }  // namespace carom::gl

@@ -6,6 +6,7 @@
 #include "export/gnuplot.h"
 #include "overlay/inscription.h"
 #include "render/mesh.h"
+#include "render/osmesa.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -22,6 +23,11 @@ set<string> painted_meshes(const Scene& scene) {
   for (const FixedLook& fixed : scene.roster.fixed)
     if (fixed.visible) add(fixed.mesh);
   return files;
+}
+
+bool has_mesh(const Scene& scene) {
+  const auto has = [](const auto& thing) { return thing.mesh.has_value(); };
+  return ranges::any_of(scene.roster.bodies, has) || ranges::any_of(scene.roster.fixed, has);
 }
 
 string fault_of(const function<void()>& find) {
@@ -55,6 +61,7 @@ void Requirements::check(const SceneFile& file, const Scene& scene, const Output
       if (painted.contains(mesh.file)) add(mesh.uncolored, fault_of_colors(mesh.file));
   }
   if (outputs.pictures()) add({}, fault_of([&] { check_font(scene); }));
+  if (outputs.pictures() && has_mesh(scene)) add({}, fault_of([] { find_osmesa(); }));
   if (outputs.video) add({}, fault_of([] { find_film_tools(); }));
   if (outputs.charts()) add({}, fault_of([] { find_gnuplot(); }));
   if (!faults.empty()) throw RequirementError(file.error(faults));

@@ -1,5 +1,5 @@
 #pragma once
-// What the outputs of a scene need of this machine besides carom: programs, a font, and the textures of meshes.
+// What the outputs of a scene need of this machine besides carom: programs, a font, OSMesa, and the textures of meshes.
 
 #include "scene/load.h"
 #include "std.h"

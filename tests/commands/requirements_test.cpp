@@ -57,6 +57,29 @@ Finished alone(const Workplace& here, const string& words) {
   return here.shell("PATH=/nowhere; exec \"$CAROM\" " + words);
 }
 
+// A file of its name that is no library is found before the library of the system.
+TEST(Requirements, OsmesaIsNeededByPicturesOfMeshesAlone) {
+  const Workplace here;
+  here.write("lib/libOSMesa.so.8", "no library\n");
+  here.write("balls.yaml", two_balls(pictures));
+  string meshes = two_balls(pictures);
+  meshes.replace(meshes.find("radius:"), 0, "mesh: " SCENES_DIR "/meshes/duck.obj, ");
+  here.write("ducks.yaml", meshes);
+  const auto without = [&](const string& words) { return here.shell("LD_LIBRARY_PATH=lib \"$CAROM\" " + words); };
+
+  const Finished run = without("run ducks.yaml -o ducks");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err.rfind("ducks.yaml: error: meshes in pictures need OSMesa, which cannot be loaded: ", 0), 0u)
+      << run.err;
+  const string remedy =
+      "install it (on Debian: apt install libosmesa6; for carom's archive: unpack that of meshes in the same place), "
+      "or leave out each `mesh` or the pictures";
+  EXPECT_NE(run.err.find("\n    = " + remedy + "\n"), string::npos) << run.err;
+  EXPECT_FALSE(here.has("ducks"));
+  EXPECT_EQ(without("run balls.yaml -o balls -q").code, 0);
+  EXPECT_EQ(without("run ducks.yaml -o ducks -q --only trajectory").code, 0);
+}
+
 TEST(Requirements, AMissingTextureIsFoundByCheckAndBeforeTheRun) {
   const Workplace here;
   put_crate(here);
