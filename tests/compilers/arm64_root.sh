@@ -1,6 +1,6 @@
 #!/bin/sh
 # arm64_root.sh FOLDER PACKAGE...: makes FOLDER a tree of Debian 12 for arm64 with these packages and all that they depend on, unpacked
-# but not configured: enough to compile and link against, and for qemu to run programs in. Changes nothing else and needs no root.
+# but not configured: enough to compile and link against, to find a program's packages, and for qemu to run programs in. Changes nothing else and needs no root.
 # Packages come from the mirror of the host's apt; FOLDER.apt keeps them. A tree that has the packages stays as it is.
 set -eu
 
@@ -31,7 +31,20 @@ get install --download-only --yes "$@" > /dev/null
 rm -rf "$root"
 mkdir -p "$root/usr/lib" "$root/usr/bin" "$root/usr/sbin"
 for folder in lib bin sbin; do ln -s usr/$folder "$root/$folder"; done
-for package in "$apt"/archives/*.deb; do dpkg-deb --fsys-tarfile "$package" | tar -x -C "$root" --keep-directory-symlink --no-same-owner; done
+# With what dpkg knows of installed packages: which has which file, and which versions of it programs need.
+known=$root/var/lib/dpkg
+mkdir -p "$known/info"
+echo 1 > "$known/info/format"
+for package in "$apt"/archives/*.deb; do
+  dpkg-deb --fsys-tarfile "$package" | tar -x -C "$root" --keep-directory-symlink --no-same-owner
+  name=$(dpkg-deb -W --showformat='${Package}' "$package")
+  [ "$(dpkg-deb -f "$package" Multi-Arch)" != same ] || name=$name:arm64
+  dpkg-deb -e "$package" "$known/control"
+  for file in symbols shlibs; do [ ! -f "$known/control/$file" ] || mv "$known/control/$file" "$known/info/$name.$file"; done
+  dpkg-deb --fsys-tarfile "$package" | tar -t | sed 's|^\.||; s|/$||; s|^$|/.|' > "$known/info/$name.list"
+  { echo 'Status: install ok installed' && cat "$known/control/control" && echo; } >> "$known/status"
+  rm -r "$known/control"
+done
 # Absolute paths of links and of CMake's files.
 find "$root/usr/lib" -type l -lname '/*' | while read -r link; do ln -sfn "$root$(readlink "$link")" "$link"; done
 grep -rlZ '[";:]/usr' "$root/usr/lib" --include='*.cmake' | xargs -0r sed -i "s|\([\";:]\)/usr|\1$root/usr|g"
