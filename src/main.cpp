@@ -6,5 +6,5 @@
 int main(int argc, char** argv) {
   carom::hold_standard_descriptors();
   carom::catch_signals();
-  return carom::run_program({argv + (argc > 0 ? 1 : 0), argv + argc});
+  return carom::run_program({argv + (argc > 0 ? 1 : 0), argv + argc}, carom::program_commit);
 }

@@ -7,11 +7,11 @@
 #include <deque>
 
 #include "bench/shifted.h"
+#include "engine/engine.h"
 #include "export/gnuplot.h"
 #include "files/csv.h"
 #include "files/manifest.h"
 #include "files/mesh_copies.h"
-#include "run/engine.h"
 #include "scene/scene.h"
 #include "std.h"
 #include "yaml/value_json.h"

@@ -1,8 +1,8 @@
 #pragma once
 // One way to simulate a scene: an engine, and its treatment of paths without a closed form.
 
+#include "engine/engine.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "scene/simulate_settings.h"
 #include "std.h"
 

@@ -6,10 +6,10 @@
 
 #include "bench/method.h"
 #include "bench/timing.h"
+#include "engine/engine.h"
 #include "numerics/whole.h"
 #include "physics/body_now.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "std.h"

@@ -1,11 +1,11 @@
 #pragma once
 // One run, with the data needed to compare it with another one.
 
+#include "engine/engine.h"
 #include "physics/entity.h"
 #include "physics/state.h"
 #include "physics/tally.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "scene/simulate_settings.h"
 #include "std.h"
 

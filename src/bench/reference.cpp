@@ -6,9 +6,9 @@
 
 #include "bench/shifted.h"
 #include "bench/timing.h"
+#include "engine/accuracy.h"
 #include "physics/force.h"
 #include "physics/world.h"
-#include "run/accuracy.h"
 #include "scene/engines.h"
 #include "scene/scene.h"
 #include "simulate/tolerances.h"

@@ -1,13 +1,13 @@
-// Simulates the scene again with changed data and finer steps (run/accuracy.h), and describes the differences. A single
-// run does not show its own error.
+// Simulates the scene again with changed data and finer steps (engine/accuracy.h), and describes the differences. A
+// single run does not show its own error.
 #include "commands/accuracy_report.h"
 
 #include <fmt/format.h>
 
 #include "commands/interrupt.h"
 #include "commands/text.h"
+#include "engine/accuracy.h"
 #include "physics/world.h"
-#include "run/accuracy.h"
 #include "scene/scene.h"
 #include "std.h"
 

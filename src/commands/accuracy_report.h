@@ -2,7 +2,7 @@
 // The sources of a run's error, as text and as JSON.
 #include <nlohmann/json.hpp>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "std.h"
 
 namespace carom {

@@ -13,7 +13,7 @@
 #include "commands/shared_fractions.h"
 #include "commands/text.h"
 #include "files/failed_run.h"
-#include "files/processors.h"
+#include "numerics/processors.h"
 #include "run/stages.h"
 #include "run/stopwatch.h"
 #include "scene/scene.h"

@@ -12,7 +12,7 @@
 #include "commands/report.h"
 #include "commands/text.h"
 #include "export/gnuplot.h"
-#include "files/processors.h"
+#include "numerics/processors.h"
 #include "scene/scene.h"
 #include "std.h"
 

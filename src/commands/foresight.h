@@ -3,9 +3,9 @@
 // run takes.
 
 #include "commands/crowd_ahead.h"
+#include "engine/engine.h"
 #include "physics/collision.h"
 #include "physics/entity.h"
-#include "run/engine.h"
 #include "std.h"
 
 namespace carom {

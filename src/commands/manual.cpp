@@ -11,6 +11,7 @@
 #include "scene/field_places.h"
 #include "scene/fields.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/joined.h"
 
 namespace carom {
@@ -174,7 +175,7 @@ string manual_page() {
       "collision in closed form, or in time steps, and writes CSV tables, pictures and films.\n"
       "Results go to standard output, progress and errors to standard error.\n"
       ".SH COMMANDS\n",
-      CAROM_VERSION);
+      program_version);
 
   for (const Command& command : commands()) out += command_section(command);
   out += ".SH OPTIONS OF EVERY COMMAND\n";

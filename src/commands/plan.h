@@ -2,9 +2,9 @@
 // Checks all scenes of the command line before the first is simulated. Changes nothing.
 
 #include "commands/options.h"
+#include "engine/engine.h"
 #include "export/forecast.h"
 #include "files/run_folder.h"
-#include "run/engine.h"
 #include "run/former_run.h"
 #include "std.h"
 #include "yaml/diagnostics.h"

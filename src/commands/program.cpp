@@ -11,6 +11,7 @@
 #include "commands/report.h"
 #include "commands/text.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/diagnostics.h"
 
 namespace carom {
@@ -42,7 +43,7 @@ string program_help() {
   text +=
       "\nOptions:\n"
       "  -h,--help               this help; after a command, its own\n"
-      "  --version               the version\n"
+      "  --version               the version, and the commit that it was built from\n"
       "  --man                   the manual page, as man reads it: carom --man | man -l -\n"
       "  --bash-completion       completion for bash: source <(carom --bash-completion)\n";
   return text;
@@ -85,7 +86,7 @@ int usage_error(const string& command, const UsageError& error, const vector<str
   return 2;
 }
 
-int dispatch(const vector<string>& words) {
+int dispatch(const vector<string>& words, const string& commit) {
   string name;
   try {
     if (words.empty()) {
@@ -97,7 +98,7 @@ int dispatch(const vector<string>& words) {
     string first = words.front();
     vector<string> rest(words.begin() + 1, words.end());
     if (first == "--version") {
-      write_out("carom " CAROM_VERSION "\n");
+      write_out(fmt::format("{}{}\n", program_and_version, commit.empty() ? "" : fmt::format(" ({})", commit)));
       return 0;
     }
     if (first == "--man" || first == "--bash-completion") {
@@ -128,9 +129,9 @@ int dispatch(const vector<string>& words) {
   }
 }
 
-int guarded(const vector<string>& words) {
+int guarded(const vector<string>& words, const string& commit) {
   try {
-    return dispatch(words);
+    return dispatch(words, commit);
   } catch (const Interrupted& interrupted) {
     write_failure(words, "interrupted", {});
     write_err("carom: interrupted\n");
@@ -144,8 +145,8 @@ int guarded(const vector<string>& words) {
 
 }  // namespace
 
-int run_program(const vector<string>& words) {
-  const int code = guarded(words);
+int run_program(const vector<string>& words, const string& commit) {
+  const int code = guarded(words, commit);
   string reason;
   if (finish_output(reason)) return code;
   write_err(fmt::format("carom: cannot write to standard output: {}\n", reason));

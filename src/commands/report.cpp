@@ -15,6 +15,7 @@
 #include "files/summary_columns.h"
 #include "scene/output_kinds.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/letters.h"
 #include "yaml/value_json.h"
 
@@ -303,7 +304,7 @@ Json times_json(const RunResult& result) {
 }
 
 string document(string_view command, Json members) {
-  Json whole = {{"carom", CAROM_VERSION}, {"command", string(command)}};
+  Json whole = {{"carom", program_version}, {"command", string(command)}};
   if (members.is_object())
     whole.update(members);
   else

@@ -3,7 +3,7 @@
 
 #include "commands/batch.h"
 #include "commands/watch.h"
-#include "files/processors.h"
+#include "numerics/processors.h"
 
 namespace carom {
 namespace {

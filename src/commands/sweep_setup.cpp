@@ -12,7 +12,7 @@
 #include "commands/option_table.h"
 #include "commands/text.h"
 #include "compare/comparison.h"
-#include "files/processors.h"
+#include "numerics/processors.h"
 #include "overlay/text_notes.h"
 #include "render/mesh.h"
 #include "run/start_reader.h"

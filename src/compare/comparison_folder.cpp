@@ -12,6 +12,7 @@
 #include "files/stored_file.h"
 #include "scene/output_kinds.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/printable.h"
 #include "yaml/value_json.h"
 
@@ -73,7 +74,7 @@ FolderContent inspect_comparison_folder(const string& path, const string& reques
     const auto stored = read_record(folder.get(), file.name);
     return stored && stored->bytes == file.bytes && stored->sha256 == file.sha256;
   });
-  if (whole && manifest->version == CAROM_VERSION && manifest->outputs == request) return FolderContent::this_run;
+  if (whole && manifest->version == program_version && manifest->outputs == request) return FolderContent::this_run;
   changes = changes_of_comparison(path);
   return comparison_obstacle(changes).empty() ? FolderContent::incomplete : FolderContent::touched;
 }

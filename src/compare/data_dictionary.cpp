@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "std.h"
+#include "version.h"
 
 namespace carom {
 namespace {
@@ -103,9 +104,9 @@ void write_about(Worksheet& sheet, const ComparisonPlan& plan, const vector<Meas
 
   sheet.text(row++, 0, plan.title, CellStyle::title);
   sheet.text(row++, 0,
-             "written by carom " CAROM_VERSION
-             "; SI units, right-handed axes, y is up; cells show about five digits and "
-             "have 16, the CSV files all",
+             fmt::format("written by {}; SI units, right-handed axes, y is up; cells show about five digits and "
+                         "have 16, the CSV files all",
+                         program_and_version),
              CellStyle::note);
 
   section("Sheets");

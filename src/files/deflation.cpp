@@ -1,7 +1,7 @@
-// By ISA-L. Its bytes are the same with SSE4.2, AVX2 and AVX-512, by its functions for each of them. Without SSE4.2 it
-// has another hash, and so other bytes. The first bytes are compressed by themselves: its function for many bytes
-// (2.30, `.write_first_byte` of igzip_icf_body_h1_gr_bt.asm) takes the hash of the third byte of all from what a
-// register was left with, the address of its state.
+// By ISA-L. Its bytes are the same with SSE4.2, AVX2 and AVX-512, by its functions for each of them. Without SSE4.2,
+// and on arm64, it has other functions, and so other bytes. The first bytes are compressed by themselves: its function
+// for many bytes (2.30, `.write_first_byte` of igzip_icf_body_h1_gr_bt.asm) takes the hash of the third byte of all
+// from what a register was left with, the address of its state.
 #include "files/deflation.h"
 
 #include <isa-l/igzip_lib.h>

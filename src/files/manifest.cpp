@@ -15,6 +15,7 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -118,7 +119,7 @@ string whole_text(const Json& of_scene, const string& outputs, const Json& meshe
                   const vector<FileRecord>& files) {
   Json json;
   json["tool"] = tool;
-  json["version"] = CAROM_VERSION;
+  json["version"] = program_version;
   json.update(of_scene);
   json["outputs"] = json_of_text(outputs);
   json.update(meshes);

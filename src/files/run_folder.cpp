@@ -19,6 +19,7 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "version.h"
 
 namespace carom {
 namespace {
@@ -96,13 +97,13 @@ FolderChanges changes_in(const FoundFolder& found, const Manifest& manifest,
 
 /// Compares sizes before hashes, so that a truncated file is found without reading gigabytes.
 bool is_whole(int folder, const Manifest& manifest, const string& outputs, const vector<string>& names) {
-  return manifest.version == CAROM_VERSION && manifest.outputs == outputs && names_all(manifest, names) &&
+  return manifest.version == program_version && manifest.outputs == outputs && names_all(manifest, names) &&
          all_files(folder, manifest, has_size) && all_files(folder, manifest, has_hash);
 }
 
 /// Whether the folder has a file of a run by this program that a run with the scene's outputs would not replace.
 bool has_more(int folder, const Manifest& manifest, const Scene& scene, const vector<string>& names) {
-  if (manifest.version != CAROM_VERSION) return false;
+  if (manifest.version != program_version) return false;
   SeriesFolders folders(folder);
   return any_of(manifest.files, [&](const FileRecord& file) {
     const OutputKind* kind = output_with_series(file.name);
@@ -131,7 +132,7 @@ bool is_whole_since(const string& path, const string& mark) {
   const timespec marked = changed({AT_FDCWD, mark}).value_or(timespec{});
   const Descriptor folder = open_folder(AT_FDCWD, path, true);
   const auto manifest = folder ? read_manifest(folder.get(), manifest_name) : nullopt;
-  if (!manifest || manifest->version != CAROM_VERSION) return false;
+  if (!manifest || manifest->version != program_version) return false;
 
   // The manifest itself is no younger than the mark.
   if (!mark.empty()) {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <thread>
 
+#include "numerics/processor.h"
 #include "std.h"
 
 namespace carom {
@@ -27,9 +28,7 @@ int changed(const std::atomic<int>& number, int old) {
       std::this_thread::yield();
       continue;
     }
-#ifdef __x86_64__
-    __builtin_ia32_pause();
-#endif
+    pause_loop();
   }
   number.wait(old, std::memory_order_acquire);
   return number.load(std::memory_order_acquire);

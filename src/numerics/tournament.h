@@ -6,11 +6,8 @@
 
 #include "numerics/large_pages.h"
 #include "numerics/prefetch.h"
+#include "numerics/vectors.h"
 #include "std.h"
-
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
 
 namespace carom {
 
@@ -129,20 +126,15 @@ class Tournament {
     const double* t = level.time + game * width;
 
     // The least time of the game, and a bit for each entry that has it, or is close.
-#ifdef __SSE2__
-    __m128d pair[4];
-    for (int k = 0; k < 4; ++k) pair[k] = _mm_loadu_pd(t + 2 * k);
-    const __m128d least = _mm_min_pd(_mm_min_pd(pair[0], pair[1]), _mm_min_pd(pair[2], pair[3]));
-    const __m128d first = _mm_min_pd(least, _mm_shuffle_pd(least, least, 1));
-    time = _mm_cvtsd_f64(first);
+    typedef double Pair __attribute__((vector_size(16)));
+    Pair pair[4];
+    for (int k = 0; k < 4; ++k) std::memcpy(&pair[k], t + 2 * k, sizeof(Pair));
+    const auto lesser = [](Pair a, Pair b) { return a < b ? a : b; };
+    const Pair least = lesser(lesser(pair[0], pair[1]), lesser(pair[2], pair[3]));
+    const Pair first = lesser(least, __builtin_shufflevector(least, least, 1, 0));
+    time = first[0];
     unsigned ties = 0;
-    const __m128d limit = _mm_add_pd(first, _mm_set1_pd(close_));
-    for (int k = 0; k < 4; ++k) ties |= unsigned(_mm_movemask_pd(_mm_cmple_pd(pair[k], limit))) << (2 * k);
-#else
-    time = *std::min_element(t, t + width);
-    unsigned ties = 0;
-    for (unsigned k = 0; k < width; ++k) ties |= unsigned(t[k] <= time + close_) << k;
-#endif
+    for (int k = 0; k < 4; ++k) ties |= bits_of(pair[k] <= first + close_) << (2 * k);
 
     if (time == never) {
       winner = none;
@@ -153,9 +145,7 @@ class Tournament {
     }
   }
 
-  uint32_t entry(size_t l, size_t place) const {
-    return l == 0 ? uint32_t(place) : levels_[l].winner[place];
-  }
+  uint32_t entry(size_t l, size_t place) const { return l == 0 ? uint32_t(place) : levels_[l].winner[place]; }
 
   /// Of several entries of a game with this time or close to it, the one that comes before all others.
   [[gnu::noinline]] uint32_t first_of(unsigned ties, size_t l, size_t game, double time) const {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "std.h"
+#include "version.h"
 
 namespace carom {
 
@@ -32,7 +33,7 @@ class GlbFile {
   template <typename Number>
   size_t add_numbers(span<const Number> numbers, size_t width, Use use);
 
-  nlohmann::ordered_json json_ = {{"asset", {{"version", "2.0"}, {"generator", "carom " CAROM_VERSION}}}};
+  nlohmann::ordered_json json_ = {{"asset", {{"version", "2.0"}, {"generator", program_and_version}}}};
   string binary_;
   map<string, size_t> known_;  // by list and item
 };

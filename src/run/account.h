@@ -1,8 +1,8 @@
 #pragma once
 // The totals of a run at its end: its energy, its momentum and its counts.
+#include "engine/engine.h"
 #include "files/summary.h"
 #include "physics/state.h"
-#include "run/engine.h"
 
 namespace carom {
 

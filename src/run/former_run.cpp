@@ -19,6 +19,7 @@
 #include "scene/output_kinds.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/value_json.h"
 
 namespace carom {
@@ -66,9 +67,9 @@ FormerRun read_former_run(const string& folder, SceneFile& file, const SparedFil
   if (!manifest) refuse_until_rerun(folder, "its manifest.json is damaged, or not written by carom");
   run.manifest = *manifest;
 
-  if (manifest->version != CAROM_VERSION)
-    refuse_until_rerun(folder,
-                       fmt::format("it is a run of carom {}, and this is carom {}", manifest->version, CAROM_VERSION));
+  if (manifest->version != program_version)
+    refuse_until_rerun(
+        folder, fmt::format("it is a run of carom {}, and this is carom {}", manifest->version, program_version));
 
   // Its scene, with the outputs that it has.
   run.scene = file.scene();

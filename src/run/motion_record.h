@@ -1,8 +1,8 @@
 #pragma once
 // A motion simulated once, into a record that can be followed more than once.
 
+#include "engine/engine.h"
 #include "files/part_file.h"
-#include "run/engine.h"
 #include "run/motion_sink.h"
 #include "std.h"
 

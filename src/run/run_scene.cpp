@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/accuracy.h"
 #include "export/flights_file.h"
 #include "physics/archive.h"
-#include "run/accuracy.h"
 #include "run/checkpoints.h"
 #include "run/drawing_thread.h"
 #include "run/drawings.h"

@@ -1,7 +1,7 @@
 #pragma once
 // Runs checked scenes into their folders: joins simulator, timelines, renderers and exports.
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "run/run_settings.h"
 #include "run/stage.h"
 #include "std.h"

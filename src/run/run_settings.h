@@ -2,9 +2,9 @@
 // What a run is asked for besides its scene, how it reports, and what it returns.
 #include <exception>
 
+#include "engine/engine.h"
 #include "files/publication.h"
 #include "files/summary.h"
-#include "run/engine.h"
 #include "run/measure.h"
 #include "simulate/simulator.h"
 #include "std.h"

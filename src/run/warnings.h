@@ -1,10 +1,10 @@
 #pragma once
 // The warnings of a run with doubtful results.
 
+#include "engine/engine.h"
 #include "files/summary.h"
 #include "physics/state.h"
 #include "physics/tally.h"
-#include "run/engine.h"
 #include "std.h"
 
 namespace carom {

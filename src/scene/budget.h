@@ -1,11 +1,12 @@
 #pragma once
 // Limits on what a run may compute and write unless --force is given, and what exceeds them.
 
-#include "scene/output_kinds.h"
 #include "std.h"
 
 namespace carom {
 
+struct Output;
+struct OutputKind;
 struct Scene;
 
 /// Limits on a scene, checked before anything is allocated for it.

@@ -1,6 +1,6 @@
 #pragma once
 // The engines of the format: their names, the choice of `auto`, and what each engine lacks.
-// Their construction is in run/engine.h.
+// Their construction is in engine/engine.h.
 
 #include "scene/simulate_settings.h"
 #include "std.h"

@@ -226,7 +226,7 @@ inline constexpr double slow_for = 5;
 
 namespace carom::accuracy_tolerance {
 
-// Which steps meet a tolerance (run/accuracy.h).
+// Which steps meet a tolerance (engine/accuracy.h).
 
 // Instants of a run at which two runs are compared, at most.
 inline constexpr int most_instants = 64;

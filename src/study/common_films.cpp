@@ -7,12 +7,12 @@
 #include <deque>
 
 #include "compare/stored_measures.h"
+#include "engine/engine.h"
 #include "files/folder_names.h"
 #include "files/folders.h"
 #include "overlay/history.h"
 #include "render/common_view.h"
 #include "render/moving_camera.h"
-#include "run/engine.h"
 #include "run/former_run.h"
 #include "run/run_scene.h"
 #include "run/survey.h"

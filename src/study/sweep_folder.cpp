@@ -27,6 +27,7 @@
 #include "scene/scene.h"
 #include "scene/scene_values.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/source.h"
 #include "yaml/value_json.h"
 
@@ -49,7 +50,7 @@ optional<Manifest> read_sweep_manifest(int folder) {
 }
 
 bool is_whole(int folder, const string& path, const Sweep& sweep, const Manifest& manifest) {
-  if (manifest.version != CAROM_VERSION || !wrong_file(folder, manifest, depends_on_look).empty()) return false;
+  if (manifest.version != program_version || !wrong_file(folder, manifest, depends_on_look).empty()) return false;
   const string mark = path + "/" + manifest_name;
   set<string> absent(manifest.failed.begin(), manifest.failed.end());
   for (auto& [id, errors] : stored_skips(path)) absent.insert(std::move(id));

@@ -11,13 +11,13 @@
 #include <tuple>
 
 #include "compare/compared_run.h"
+#include "engine/engine.h"
 #include "files/copied_run.h"
 #include "files/failed_run.h"
 #include "files/folder_writer.h"
 #include "files/hash.h"
 #include "files/mesh_copies.h"
 #include "files/publication.h"
-#include "run/engine.h"
 #include "run/run_scene.h"
 #include "scene/caption.h"
 #include "scene/motion_text.h"

@@ -17,6 +17,7 @@
 #include "files/run_folder.h"
 #include "files/stored_table.h"
 #include "std.h"
+#include "version.h"
 #include "yaml/letters.h"
 
 namespace carom {
@@ -360,7 +361,7 @@ Workbook::Workbook(const FilePlace& place, string name, const string& title)
   const string subject = valid_utf8(title);
   lxw_doc_properties properties{};
   properties.title = const_cast<char*>(subject.c_str());
-  properties.comments = const_cast<char*>("carom " CAROM_VERSION);
+  properties.comments = const_cast<char*>(program_and_version);
   // 2000-01-01 and not the clock, so that the same runs give the same bytes.
   properties.created = 946'684'800;
   workbook_set_properties(book_, &properties);

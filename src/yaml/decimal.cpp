@@ -1,7 +1,7 @@
 // Decimal numbers as 128-bit integers with a count of decimal places,
 // so that 0.1 steps give 0.3 and not 0.30000000000000004.
 // Sums of doubles would drift, and their texts would differ from what an author writes.
-// A quotient without a finite expansion falls back to the nearest double.
+// A quotient without a finite expansion is the nearest double, found from its digits: the same on every processor.
 #include "yaml/decimal.h"
 
 #include <charconv>
@@ -36,6 +36,42 @@ string digits_of(Wide value) {
   } while (value != 0);
   ranges::reverse(out);
   return out;
+}
+
+string with_point(string digits, int places, bool negative) {
+  for (; places > 0 && digits.ends_with('0'); --places) digits.pop_back();
+  if (digits.empty()) return "0";
+
+  if (places > 0) {
+    const auto after = size_t(places);
+    if (digits.size() <= after) digits.insert(0, after + 1 - digits.size(), '0');
+    digits.insert(digits.size() - after, 1, '.');
+  }
+  return negative ? "-" + digits : digits;
+}
+
+/// The text of value + rest / last units: exact if it has no more than most_digits, else that of the nearest double.
+string quotient_text(const Decimal& value, Wide rest, Wide last) {
+  const bool negative = value.units < 0 || rest < 0;
+  if (negative) rest = -rest;
+  string digits = digits_of(negative ? -value.units : value.units);
+  int places = value.places;
+  const auto add_digits = [&](size_t most) {
+    for (; rest != 0 && digits.size() < most; ++places) {
+      rest *= 10;
+      digits += char('0' + int(rest / last));
+      rest %= last;
+      if (digits.starts_with('0') && digits.size() > 1) digits.erase(0, 1);
+    }
+  };
+
+  add_digits(most_digits);
+  if (rest == 0 && places <= most_digits) return with_point(digits, places, negative);
+
+  // The middle between two doubles has fewer digits than this, so that one more stands for all that are beyond.
+  add_digits(200);
+  if (rest != 0) digits += '1', ++places;
+  return shortest(*parse_number(with_point(digits, places, negative)));
 }
 
 }  // namespace
@@ -88,18 +124,7 @@ optional<Decimal> parse_decimal(string_view text) {
 }
 
 string to_text(const Decimal& value) {
-  Decimal v = value;
-  while (v.places > 0 && v.units % 10 == 0) {
-    v.units /= 10;
-    --v.places;
-  }
-  string digits = digits_of(v.units < 0 ? -v.units : v.units);
-  if (v.places > 0) {
-    const auto places = size_t(v.places);
-    if (digits.size() <= places) digits.insert(0, places + 1 - digits.size(), '0');
-    digits.insert(digits.size() - places, 1, '.');
-  }
-  return v.units < 0 ? "-" + digits : digits;
+  return with_point(digits_of(value.units < 0 ? -value.units : value.units), value.places, value.units < 0);
 }
 
 vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
@@ -108,40 +133,20 @@ vector<string> spread(const Decimal& from, const Decimal& to, uint64_t count) {
 
   vector<string> out;
   const auto last = static_cast<Wide>(count) - 1;
+  const Wide way = b.units - a.units;
   for (Wide i = 0; i <= last; ++i) {
     if (i == 0 || i == last) {
       out.push_back(to_text(i == 0 ? a : b));
       continue;
     }
 
-    // The value is (a (last - i) + b i) / last, in units. It is exact in at most 18 further digits, or not at all.
-    // Ends that have both 18 digits above and 18 below the point overflow.
-    Wide whole = 0, part = 0;
-    if (__builtin_mul_overflow(a.units, last - i, &whole) || __builtin_mul_overflow(b.units, i, &part) ||
-        __builtin_add_overflow(whole, part, &whole)) {
-      const long double share = static_cast<long double>(i) / static_cast<long double>(last);
-      const auto scale = static_cast<long double>(power(a.places));
-      out.push_back(shortest(double(
-          (static_cast<long double>(a.units) * (1 - share) + static_cast<long double>(b.units) * share) / scale)));
-      continue;
-    }
-
-    // Further places, until the division leaves no rest.
-    Wide sum = whole;
-    Decimal value{0, a.places};
-    const Wide limit = power(most_digits);
-    while (sum % last != 0 && sum < limit && sum > -limit && value.places < most_digits) {
-      sum *= 10;
-      ++value.places;
-    }
-
-    if (sum % last == 0) {
-      value.units = sum / last;
-      out.push_back(to_text(value));
-    } else {
-      const long double divisor = static_cast<long double>(last) * static_cast<long double>(power(a.places));
-      out.push_back(shortest(double(static_cast<long double>(whole) / divisor)));
-    }
+    // The value is whole + rest / last, in units. Both have its sign.
+    Wide rest = way % last * i;
+    Wide whole = a.units + way / last * i + rest / last;
+    rest %= last;
+    if (whole > 0 && rest < 0) --whole, rest += last;
+    if (whole < 0 && rest > 0) ++whole, rest -= last;
+    out.push_back(quotient_text({whole, a.places}, rest, last));
   }
   return out;
 }

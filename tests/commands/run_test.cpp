@@ -6,6 +6,7 @@
 #include "commands/program.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "version.h"
 
 namespace carom::testing {
 namespace {
@@ -441,7 +442,7 @@ TEST(Run, JsonIsOneDocumentWithTheSummarysFields) {
   const Finished run = here.carom({"run", "a.yaml", "b.yaml", "--json"});
   EXPECT_EQ(run.code, 0);
   const Json document = Json::parse(run.out);
-  EXPECT_EQ(document.at("carom"), CAROM_VERSION);
+  EXPECT_EQ(document.at("carom"), program_version);
 
   const Json& a = document.at("scenes").at(0);
   EXPECT_EQ(a.at("status"), "done");

@@ -1,19 +1,22 @@
 #!/bin/sh
-# same_bytes.sh PROGRAM OTHER SCENE...: runs each scene by the programs of two compilers and compares every byte of their
-# files (manifests have wall times and are left out). Scenes that take longer than PATIENCE seconds are listed and left
-# out.
+# same_bytes.sh PROGRAM OTHER SCENE...: runs each scene by two programs and compares every byte of their tables (manifests have wall
+# times and are left out), and, with PICTURES set, the pixels of their sheets. A program is a command with its first arguments, such
+# as qemu's. Scenes that take PROGRAM longer than PATIENCE seconds are listed and left out.
 set -eu
 
+here=$(dirname "$0")
 program=$1 other=$2
 shift 2
 patience=${PATIENCE:-10}
+outputs=trajectory,collisions,energy${PICTURES:+,sheet}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 scenes=0 files=0 slow=0 wrong=0
 for scene; do
   name=$(basename "$scene" .yaml)
-  run() { timeout "$3" "$1" run "$scene" --only trajectory,collisions,energy --quiet -o "$folder/$2/$name" > "$folder/$2.log" 2>&1; }
+  # shellcheck disable=SC2086  # a command's words
+  run() { timeout "$3" $1 run "$scene" --only "$outputs" --quiet -o "$folder/$2/$name" > "$folder/$2.log" 2>&1; }
   status=0
   run "$program" one "$patience" || status=$?
   if [ "$status" = 124 ]; then
@@ -22,9 +25,10 @@ for scene; do
     continue
   fi
   same=0
-  run "$other" other $((10 * patience)) || same=$?
+  run "$other" other $((100 * patience)) || same=$?
   scenes=$((scenes + 1))
-  if [ "$status" != "$same" ] || ! diff -r -q --exclude=manifest.json "$folder/one" "$folder/other"; then
+  if [ "$status" != "$same" ] || ! diff -r -q --exclude=manifest.json --exclude='*.png' "$folder/one" "$folder/other" \
+    || { [ -n "${PICTURES:-}" ] && ! "$here/same_pixels.py" "$folder/one/$name/sheet.png" "$folder/other/$name/sheet.png"; }; then
     echo "$scene: differs (exit codes $status and $same)"
     wrong=$((wrong + 1))
   fi

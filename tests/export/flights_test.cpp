@@ -8,6 +8,7 @@
 #include "files/folder_writer.h"
 #include "files/hash.h"
 #include "files/run_folder.h"
+#include "processor.h"
 #include "scene/scene.h"
 #include "std.h"
 
@@ -203,7 +204,7 @@ TEST(Flights, TakeFewBytesForAnImpactOfTwo) {
 }
 
 TEST(Flights, HaveTheSameBytesOnEveryProcessorWithSse42) {
-  if (!__builtin_cpu_supports("sse4.2")) GTEST_SKIP() << "a processor without SSE4.2";
+  if (!packs_by_sse42()) GTEST_SKIP() << "another processor";
   const TempFolder folder;
   store(folder, small_scene());
   EXPECT_EQ(sha256(read(folder / "flights.bin")), "caf0a3d7599fea29801488d22cc01ba4d26cce8451646cdeae2cffe039f47dca");

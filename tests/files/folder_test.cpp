@@ -19,6 +19,7 @@
 #include "files/stored_file.h"
 #include "scene/scene.h"
 #include "std.h"
+#include "version.h"
 
 namespace carom {
 namespace {
@@ -158,7 +159,7 @@ TEST(Manifest, NamesEveryFileWithItsSizeAndHash) {
 
   const auto manifest = nlohmann::json::parse(read(temp / "run/manifest.json"));
   EXPECT_EQ(manifest["tool"], "carom");
-  EXPECT_EQ(manifest["version"], CAROM_VERSION);
+  EXPECT_EQ(manifest["version"], program_version);
   EXPECT_EQ(manifest["scene"]["file"], "small.yaml");
   EXPECT_EQ(manifest["scene"]["title"], "Two \"balls\" \xEF\xBF\xBD");
   EXPECT_EQ(manifest["scene"]["sha256"], sha256(scene.resolved));

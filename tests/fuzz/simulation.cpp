@@ -4,12 +4,12 @@
 
 #include <ctime>
 
+#include "engine/engine.h"
 #include "physics/body_now.h"
 #include "physics/coupled_forces.h"
 #include "physics/energy.h"
 #include "physics/force.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "scene/scene.h"
 #include "simulate/loop/exact_simulator.h"
 #include "std.h"

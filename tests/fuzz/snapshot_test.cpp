@@ -3,9 +3,9 @@
 
 #include <random>
 
+#include "engine/engine.h"
 #include "fuzz/any_scene.h"
 #include "fuzz/memory_file.h"
-#include "run/engine.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "slow_with_sanitizers.h"

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/reference.h"
-#include "run/accuracy.h"
+#include "engine/accuracy.h"
 #include "run/contact_scenes.h"
 #include "std.h"
 

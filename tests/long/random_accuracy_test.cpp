@@ -1,8 +1,8 @@
 // A thousand random scenes under forces of all kinds and sizes: a run's error estimate holds.
 #include <gtest/gtest.h>
 
+#include "engine/accuracy.h"
 #include "physics/world.h"
-#include "run/accuracy.h"
 #include "scene/scene.h"
 #include "simulate/random.h"
 #include "std.h"

@@ -14,12 +14,12 @@
 #include <sstream>
 
 #include "bench/bench.h"
+#include "engine/engine.h"
 #include "export/run_charts.h"
 #include "physics/energy.h"
 #include "physics/restitution.h"
 #include "physics/world.h"
 #include "readme/pages.h"
-#include "run/engine.h"
 #include "scene/fields.h"
 #include "scene/load.h"
 #include "scene/scene.h"

@@ -1,5 +1,5 @@
 // A tolerance gives steps that meet it, or a warning that it is not met.
-#include "run/accuracy.h"
+#include "engine/accuracy.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // from the origin.
 #include <gtest/gtest.h>
 
-#include "run/accuracy.h"
+#include "engine/accuracy.h"
 #include "run/contact_scenes.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"

@@ -2,8 +2,8 @@
 // Random scenes of bodies in lasting contact, on strings and rods, and at far places, with their true motion: by an
 // independent method (simulate/constrained_reference.h), or impact by impact in 64-bit mantissas.
 
+#include "engine/engine.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "scene/scene.h"
 #include "simulate/constrained_reference.h"
 #include "simulate/random.h"

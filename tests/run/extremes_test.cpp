@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "std.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/engine.h"
 #include "overlay/history.h"
-#include "run/engine.h"
 #include "run/picture_series.h"
 #include "run/run_scene.h"
 #include "run/survey.h"

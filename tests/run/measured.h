@@ -1,7 +1,7 @@
 #pragma once
 // Measures of scenes that are written as text, without a run folder.
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "run/measuring.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"

@@ -5,11 +5,11 @@
 #include <fstream>
 #include <numeric>
 
+#include "engine/engine.h"
 #include "export/film_file.h"
 #include "overlay/history.h"
 #include "overlay/inscription.h"
 #include "overlay/title_card.h"
-#include "run/engine.h"
 #include "run/picture_series.h"
 #include "run/run_scene.h"
 #include "scene/scenes_in_text.h"

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "bench/state_hash.h"
+#include "engine/engine.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "run/record_queue.h"
 #include "run/run_testing.h"
 #include "scene/engines.h"

@@ -7,11 +7,11 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/engine.h"
 #include "export/film_file.h"
 #include "export/flights_file.h"
 #include "export/picture_streams.h"
 #include "files/folders.h"
-#include "run/engine.h"
 #include "run/former_run.h"
 #include "run/run_scene.h"
 #include "run/run_testing.h"

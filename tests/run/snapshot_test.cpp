@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "run/run_testing.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"

@@ -2,12 +2,12 @@
 #include <fcntl.h>
 
 #include "bench/state_hash.h"
+#include "engine/engine.h"
 #include "export/export_testing.h"
 #include "export/flights_file.h"
 #include "export/same_piece.h"
 #include "files/folder_writer.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "run/replay.h"
 #include "run/run_testing.h"
 #include "scene/load.h"

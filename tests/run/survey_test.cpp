@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/engine.h"
 #include "export/picture_streams.h"
 #include "physics/world.h"
 #include "render/camera.h"
-#include "run/engine.h"
 #include "run/run_testing.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"

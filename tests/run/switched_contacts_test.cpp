@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "scene/scene.h"
 #include "scene/scenes_in_text.h"
 #include "std.h"

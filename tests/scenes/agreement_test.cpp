@@ -1,8 +1,8 @@
 // Flights in closed form and in steps on the scenes of scenes/.
 #include <gtest/gtest.h>
 
+#include "engine/engine.h"
 #include "physics/force.h"
-#include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
 #include "simulate/exact.h"

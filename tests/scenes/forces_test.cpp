@@ -1,8 +1,8 @@
 // Scenes of drag, an attractor and a spring, against their comments.
 #include <gtest/gtest.h>
 
+#include "engine/engine.h"
 #include "physics/energy.h"
-#include "run/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
 #include "slow_with_sanitizers.h"

@@ -1,7 +1,7 @@
 // What moves bodies in every scene, against the table of modes (modes.h).
 #include <gtest/gtest.h>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "scenes/play.h"
 #include "simulate/loop/exact_simulator.h"
 #include "slow_with_sanitizers.h"

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/engine.h"
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "render/mesh.h"
-#include "run/engine.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "std.h"

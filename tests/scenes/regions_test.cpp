@@ -1,7 +1,7 @@
 // Scenes of regions, against their comments.
 #include <gtest/gtest.h>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
 #include "std.h"

@@ -2,13 +2,13 @@
 // hidden.
 #include <gtest/gtest.h>
 
+#include "engine/engine.h"
 #include "export/picture_streams.h"
 #include "physics/world.h"
 #include "physics/world_now.h"
 #include "render/eye.h"
 #include "render/moving_camera.h"
 #include "render/sight.h"
-#include "run/engine.h"
 #include "run/motion_sink.h"
 #include "run/survey.h"
 #include "scene/scene.h"

@@ -1,7 +1,7 @@
 // Scenes of volumes, timed forces, merging and rest, against their comments and the closed forms.
 #include <gtest/gtest.h>
 
-#include "run/engine.h"
+#include "engine/engine.h"
 #include "scene/scene.h"
 #include "scenes/play.h"
 #include "slow_with_sanitizers.h"

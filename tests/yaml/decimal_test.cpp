@@ -78,6 +78,17 @@ TEST(Spread, WithoutAFiniteExpansionIsTheNearestDouble) {
   EXPECT_EQ(spread_of("0", "1", 4), (Texts{"0", "0.3333333333333333", "0.6666666666666666", "1"}));
 }
 
+// A quotient of whole numbers that doubles hold is the nearest double by IEEE 754.
+TEST(Spread, IsTheNearestDoubleOfEveryQuotient) {
+  for (const int64_t last : {3, 7, 11, 999, 4'001, 8'191})
+    for (const int64_t to : {1, -2, 10, 999'983, -123'456'789}) {
+      const Texts all = spread_of("0", std::to_string(to), static_cast<uint64_t>(last) + 1);
+      for (int64_t i = 0; i <= last; ++i)
+        ASSERT_EQ(std::stod(all[static_cast<size_t>(i)]), static_cast<double>(to * i) / static_cast<double>(last))
+            << to << " * " << i << " / " << last;
+    }
+}
+
 TEST(Steps, GoAsFarAsTheEndAndNotBeyond) {
   EXPECT_EQ(steps_of("0", "1", "0.3"), (Texts{"0", "0.3", "0.6", "0.9"}));
   EXPECT_EQ(steps_of("0.1", "0.3", "0.1"), (Texts{"0.1", "0.2", "0.3"}));

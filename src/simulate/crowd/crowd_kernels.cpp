@@ -2,41 +2,21 @@
 #include "simulate/crowd/crowd_kernels.h"
 
 #include "geometry/contact_time.h"
-#include "numerics/processor.h"
+#include "numerics/vectors.h"
 #include "std.h"
-
-#ifdef __x86_64__
-#include <immintrin.h>
-#endif
 
 namespace carom {
 
 namespace {
 
-namespace pairs {
-#define LANES 2
-#include "simulate/crowd/crowd_kernels.inc"
-#undef LANES
-}  // namespace pairs
-
-#ifdef __x86_64__
-CAROM_BEGIN_AVX2
-namespace fours {
-#define LANES 4
-#include "simulate/crowd/crowd_kernels.inc"
-#undef LANES
-}  // namespace fours
-CAROM_END_TARGET
-#endif
+#define KERNEL_FILE "simulate/crowd/crowd_kernels.inc"
+#define KERNEL_MOST_BITS 256
+#include "numerics/each_width.inc"
 
 }  // namespace
 
 vector<CrowdKernels> crowd_kernels() {
-  vector<CrowdKernels> all{pairs::kernels};
-#ifdef __x86_64__
-  if (has_avx2()) all.push_back(fours::kernels);
-#endif
-  return all;
+  return EACH_WIDTH(kernels);
 }
 
 const CrowdKernels& widest_crowd_kernels() {

@@ -3,11 +3,8 @@
 // of four.
 #include <bit>
 
-#ifdef __SSE2__
-#include <immintrin.h>
-#endif
-
 #include "numerics/large_pages.h"
+#include "numerics/vectors.h"
 #include "std.h"
 
 namespace carom {
@@ -49,17 +46,13 @@ class ListPool {
   /// The position of an entry that the list holds.
   uint32_t* find(const List& list, uint32_t entry) {
     uint32_t* at = data(list);
-#ifdef __SSE2__
     // A block may end beyond the list. An entry there is found only if it is not in the list.
-    const __m128i wanted = _mm_set1_epi32(int(entry));
-    for (;; at += granule)
-      if (const int there = _mm_movemask_ps(
-              _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(at)), wanted))))
-        return at + std::countr_zero(unsigned(there));
-#else
-    while (*at != entry) ++at;
-    return at;
-#endif
+    typedef uint32_t Granule __attribute__((vector_size(4 * granule)));
+    for (;; at += granule) {
+      Granule entries;
+      std::memcpy(&entries, at, sizeof entries);
+      if (const unsigned there = bits_of(entries == entry)) return at + std::countr_zero(there);
+    }
   }
 
   void push_back(List& list, uint32_t entry) {
@@ -80,15 +73,11 @@ class ListPool {
   // Kinds 1 to 16 have as many granules. Each later kind has twice as many as the one before.
   static constexpr uint8_t in_steps = 16;
 
-  static size_t entries_in(size_t granules) {
-    return granules * granule;
-  }
+  static size_t entries_in(size_t granules) { return granules * granule; }
   static size_t granules_of(uint8_t capacity) {
     return capacity <= in_steps ? capacity : size_t{in_steps} << (capacity - in_steps);
   }
-  static size_t room(uint8_t capacity) {
-    return entries_in(granules_of(capacity));
-  }
+  static size_t room(uint8_t capacity) { return entries_in(granules_of(capacity)); }
 
   void take(List& list, size_t count) {
     uint8_t kind = 1;

@@ -2,6 +2,7 @@
 #include "benchmark/peers/peer.h"
 #include "scene/scene.h"
 #include "simulate/exact.h"
+#include "version.h"
 
 namespace carom {
 namespace {
@@ -43,7 +44,7 @@ class CaromWorld : public PeerWorld {
 }  // namespace
 
 Peer carom_exact() {
-  return {"carom exact", CAROM_VERSION, {}, 0, [](const Scene& scene, double step) {
+  return {"carom exact", program_version, {}, 0, [](const Scene& scene, double step) {
             return std::make_unique<CaromWorld>(scene, step);
           }};
 }

@@ -1,4 +1,4 @@
-#include "files/processors.h"
+#include "numerics/processors.h"
 
 #include <sched.h>
 

@@ -3,7 +3,7 @@
 // That method is compared with itself at a smaller error of each step.
 // A perturbation by rounding in the finer run shows the error that no steps can remove.
 // Comparing two runs by halved steps was rejected, because their agreement does not show what both have missed.
-#include "run/accuracy.h"
+#include "engine/accuracy.h"
 
 #include <fmt/format.h>
 

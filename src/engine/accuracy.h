@@ -2,9 +2,9 @@
 // The accuracy of a scene's run: the steps that meet its tolerance, until when they do,
 // and whether the motion is chaotic.
 
+#include "engine/engine.h"
 #include "physics/state.h"
 #include "physics/world.h"
-#include "run/engine.h"
 #include "scene/simulate_settings.h"
 #include "std.h"
 

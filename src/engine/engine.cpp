@@ -1,10 +1,10 @@
 // A table of functions makes the simulator of each engine.
 // The exact and the stepped engine are one simulator with different options, so events and impacts are the same code.
-#include "run/engine.h"
+#include "engine/engine.h"
 
 #include <fmt/format.h>
 
-#include "files/processors.h"
+#include "numerics/processors.h"
 #include "physics/coupled_forces.h"
 #include "physics/force.h"
 #include "physics/world.h"

@@ -1,0 +1,18 @@
+# Installs carom.h and the headers that it reaches. They include one another by "carom/scene/scene.h" there, so that no
+# "scene/scene.h" of another program is taken for one of them.
+set(folder ${CMAKE_INSTALL_PREFIX}/include/carom)
+set(ahead carom.h)
+set(headers "")
+while(ahead)
+  list(POP_FRONT ahead header)
+  list(APPEND headers ${header})
+  file(READ ${CMAKE_CURRENT_LIST_DIR}/${header} text)
+  string(REGEX MATCHALL "#include \"[^\"]+" includes "${text}")
+  string(REPLACE "#include \"" "" includes "${includes}")
+  list(APPEND ahead ${includes})
+  list(REMOVE_DUPLICATES ahead)
+  list(REMOVE_ITEM ahead ${headers})
+  string(REPLACE "#include \"" "#include \"carom/" text "${text}")
+  file(WRITE $ENV{DESTDIR}${folder}/${header} "${text}")
+  list(APPEND CMAKE_INSTALL_MANIFEST_FILES ${folder}/${header})
+endwhile()
