@@ -37,7 +37,7 @@ make_package() {
   gzip -9n > "$tree/changelog.gz" << END
 carom ($version) unstable; urgency=medium
 
-  * output/README.md beside this file has what runs write, and what is promised.
+  * The changes are in output/README.md, beside this file.
 
  -- $(value CPACK_PACKAGE_CONTACT)  $(LC_ALL=C date -u -R -d "@$SOURCE_DATE_EPOCH")
 END
@@ -97,7 +97,7 @@ copy_terms() {
     dpkg-query --admindir="$root/var/lib/dpkg" -W -f '${Package} ${Version}: source ${source:Package} ${source:Version}\n' "$package"
   done >> "$at/doc/carom/packages_of_debian${1:-}"
   grep -rhoE '/usr/share/common-licenses/[A-Za-z0-9.-]*[A-Za-z0-9]' "$at/doc" | sort -u | while read -r license; do
-    [ ! -f "$root$license" ] || cp -L "$root$license" "$at/common-licenses/"
+    [ ! -f "$license" ] || cp -L "$license" "$at/common-licenses/"
   done
 }
 
