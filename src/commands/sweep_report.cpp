@@ -13,6 +13,7 @@
 #include "commands/text.h"
 #include "files/failed_run.h"
 #include "std.h"
+#include "study/sweep_folder.h"
 #include "yaml/value_json.h"
 
 namespace carom {

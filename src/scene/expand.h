@@ -8,6 +8,8 @@
 
 namespace carom {
 
+struct Kind;
+
 /// The texts of expressions, by paths as --set takes them: "balls.red.position.x". A repeated thing has one for all its
 /// members, and "bricks.repeat" for their number. A thing has those of its defaults that it uses.
 /// Expressions of repeated entries of a list, which have no name, are absent. Of very many none is kept.
