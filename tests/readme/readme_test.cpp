@@ -214,7 +214,7 @@ TEST(PageCommands, SucceedAndPrintWhatThePagesShow) {
 
 TEST(PageCommands, OfDevAreThoseOfDev) {
   const string script = read_file(SOURCE_DIR "/dev"), usage = script.substr(0, script.find("\nEND\n"));
-  const std::regex row("\\| `\\./dev (\\w+)"), line("\n  (\\w+)  *(\\[|[A-Z]|  )"), named("\\./dev ([a-z]+)");
+  const std::regex row("\\| `\\./dev (\\w+)"), line("\n  (\\w+)  *(\\[|[A-Z]|  )"), named("\\./dev ([a-z]\\w*)");
   const auto all = [](const string& text, const std::regex& what) {
     return set<string>(std::sregex_token_iterator(text.begin(), text.end(), what, 1), {});
   };
