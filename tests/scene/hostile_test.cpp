@@ -148,7 +148,7 @@ vector<string> long_texts() {
 
 TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
   vector<string> texts = long_texts();
-  texts.insert(texts.end(), hostile_texts.begin(), short_texts.end());
+  texts.insert(texts.end(), hostile_texts.begin(), hostile_texts.end());
   for (const string& text : texts) {
     const string errors = errors_of(text);
     EXPECT_NE(errors.find("error: "), string::npos) << text.substr(0, 60);
