@@ -23,8 +23,9 @@ vector<double> least_around(const vector<double>& values, size_t reach) {
   return least;
 }
 
-/// Each mean is a sum of its own, so that rounding errors do not add up, and a constant stays what it is. Many sums grow
-/// at a time, each in the order of its terms: a processor adds them side by side, where one waits for each addition.
+/// Each mean is a sum of its own, so that rounding errors do not add up, and a constant stays what it is. Many sums
+/// grow at a time, each in the order of its terms: a processor adds them side by side, where one waits for each
+/// addition.
 vector<double> averaged(const vector<double>& values, size_t half) {
   if (values.empty()) return {};
   const double shift = values.front();

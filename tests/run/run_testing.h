@@ -34,7 +34,7 @@ inline Scene scene_named(const string& name) {
 /// collisions and a few merges behind them: what follows is more of the same.
 inline Scene scene_in_short(const string& name) {
   static const map<string, double> durations = {
-      {"balls_in_a_box", 1.5},   {"binary_stars", 1.5},   {"brick_wall", 0.6},
+      {"balls_in_a_box", 1.5},   {"binary_stars", 0.8},   {"brick_wall", 1.2},
       {"funnel", 0.4},           {"hourglass", 0.6},      {"lattice", 0.37},
       {"pi_to_six_digits", 1.5}, {"pour_into_bowl", 1.5}, {"shaken_tray", 1.2}};
   Scene scene = scene_named(name);

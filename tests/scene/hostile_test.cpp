@@ -124,26 +124,13 @@ const vector<string> hostile_texts = {"",
 
 /// Made where they are read: every test of this program would wait for them.
 vector<string> long_texts() {
-  return {repeat("[", 1'000'000),
-          repeat("{", 1'000'000),
-          repeat("{,,,,", 200'000),
-          repeat("- ", 100'000),
-          repeat("? ", 100'000),
-          repeat("a: ", 1000),
-          repeat("[[],", 100'000),
-          repeat("!a ", 50'000),
-          repeat("&a ", 50'000),
-          repeat("*a ", 50'000),
-          repeat("\"a\" ", 50'000),
-          repeat("a\n", 50'000),
-          repeat("[ #]\n", 100'000),
-          repeat("%a\n", 50'000),
-          "a: " + repeat("x", 200'000),
-          "a: |\n" + repeat(" a\n", 50'000),
-          "a: [" + repeat("1,", 200'000) + "]",
-          repeat("\n", 200'000),
-          repeat("a: 1\n", 2000),
-          alias_bomb()};
+  return {repeat("[", 1'000'000), repeat("{", 1'000'000), repeat("{,,,,", 200'000), repeat("- ", 100'000),
+          repeat("? ", 100'000), repeat("a: ", 1000), repeat("[[],", 100'000),
+          // Tags, anchors and aliases.
+          repeat("!a ", 50'000), repeat("&a ", 50'000), repeat("*a ", 50'000), repeat("\"a\" ", 50'000),
+          repeat("a\n", 50'000), repeat("[ #]\n", 100'000), repeat("%a\n", 50'000), "a: " + repeat("x", 200'000),
+          "a: |\n" + repeat(" a\n", 50'000), "a: [" + repeat("1,", 200'000) + "]", repeat("\n", 200'000),
+          repeat("a: 1\n", 2000), alias_bomb()};
 }
 
 TEST(HostileFiles, NoneLoadsAndNoneCrashes) {
