@@ -23,15 +23,26 @@ vector<double> least_around(const vector<double>& values, size_t reach) {
   return least;
 }
 
-/// Each mean is a sum of its own, so that rounding errors do not add up, and a constant stays what it is.
+/// Each mean is a sum of its own, so that rounding errors do not add up, and a constant stays what it is. Many sums
+/// grow at a time, each in the order of its terms: a processor adds them side by side, where one waits for each
+/// addition.
 vector<double> averaged(const vector<double>& values, size_t half) {
-  const auto last = ptrdiff_t(values.size()) - 1, reach = ptrdiff_t(half);
-  const double shift = values.empty() ? 0 : values.front();
+  if (values.empty()) return {};
+  const double shift = values.front();
+  vector<double> terms(values.size() + 2 * half, values.back() - shift);
+  for (size_t i = 0; i < half; ++i) terms[i] = 0;
+  for (size_t i = 0; i < values.size(); ++i) terms[half + i] = values[i] - shift;
+
   vector<double> means(values.size());
-  for (ptrdiff_t i = 0; i <= last; ++i) {
-    double sum = 0;
-    for (ptrdiff_t k = i - reach; k <= i + reach; ++k) sum += values[size_t(clamp<ptrdiff_t>(k, 0, last))] - shift;
-    means[size_t(i)] = shift + sum / double(2 * half + 1);
+  array<double, 64> sums;
+  for (size_t first = 0; first < means.size(); first += sums.size()) {
+    const size_t count = min(sums.size(), means.size() - first);
+    sums.fill(0);
+    for (size_t k = 0; k <= 2 * half; ++k) {
+      const double* term = &terms[first + k];
+      for (size_t i = 0; i < count; ++i) sums[i] += term[i];
+    }
+    for (size_t i = 0; i < count; ++i) means[first + i] = shift + sums[i] / double(2 * half + 1);
   }
   return means;
 }

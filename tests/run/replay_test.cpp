@@ -95,7 +95,7 @@ class EverySceneAgain : public ::testing::TestWithParam<string> {};
 TEST_P(EverySceneAgain, HasTheSimulatorsStateAtAnyInstant) {
   SLOW_WITH_SANITIZERS("balls_in_a_box", "gas_1000", "brick_wall", "funnel", "pi_to_six_digits", "pile_at_rest",
                        "binary_stars", "hourglass", "lattice", "pour_into_bowl");
-  const Scene scene = scene_named(GetParam());
+  const Scene scene = scene_in_short(GetParam());
   const Record run = record(make_simulator(scene, {.paths = true}), scene.simulate.duration);
   expect_same_states(scene.world, scene.simulate.duration, run, *make_simulator(scene), 500);
 }

@@ -176,11 +176,7 @@ class EverySceneGoesOn : public ::testing::TestWithParam<string> {};
 TEST_P(EverySceneGoesOn, WithTheSameFiles) {
   SLOW_WITH_SANITIZERS("balls_in_a_box", "brick_wall", "funnel", "pile_at_rest", "piston", "binary_stars", "hourglass",
                        "lattice", "pour_into_bowl", "effusion", "opening_gate", "shaken_tray");
-  Scene scene = scene_named(GetParam());
-  // They take long.
-  if (GetParam() == "funnel") scene.simulate.duration = 0.5;
-  if (GetParam() == "pi_to_six_digits") scene.simulate.duration = 1.5;
-
+  Scene scene = scene_in_short(GetParam());
   std::mt19937_64 random(1);
   const bool has_flights = goes_along_parabolas(scene.world, scene.simulate);
   vector<string> tables = {"trajectory", "collisions", "energy", "contacts", "regions", "vtk", "xyz"};

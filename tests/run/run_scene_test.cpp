@@ -45,7 +45,7 @@ class EverySceneRun : public ::testing::TestWithParam<string> {};
 
 TEST_P(EverySceneRun, SimulatesOnceByAnyCamera) {
   SLOW_WITH_SANITIZERS("funnel", "binary_stars", "hourglass", "lattice");
-  Scene scene = scene_named(GetParam());
+  Scene scene = scene_in_short(GetParam());
   const vector<string> outputs = {"energy", "frames", "sheet", "vtk", "gltf"};
   EXPECT_EQ(simulators_of(scene, outputs), 1);
   scene.camera.reset();

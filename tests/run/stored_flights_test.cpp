@@ -55,7 +55,7 @@ void store_run(StoredRun& run) {
 }
 
 void store_scene(StoredRun& run, const string& name) {
-  run.scene = scene_named(name);
+  run.scene = scene_in_short(name);
   store_run(run);
 }
 
