@@ -1,6 +1,6 @@
 #pragma once
 // Marks of tests that the build with sanitizers leaves out. There a test without a mark has two minutes: see
-// tests/CMakeLists.txt.
+// tests/CMakeLists.txt. With SLOW_TOO in the environment, as ./dev stress has it, nothing is left out or cut short.
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,14 @@ inline constexpr bool with_sanitizers = __has_feature(address_sanitizer);
 inline constexpr bool with_sanitizers = false;
 #endif
 
+inline bool slow_too() {
+  return std::getenv("SLOW_TOO") != nullptr;
+}
+
 /// Whether the running test is left out. `words`: parts of the names or values of the parameters that are slow; none:
-/// all are. With SLOW_TOO in the environment none is left out.
+/// all are.
 inline bool is_left_out(std::initializer_list<string_view> words) {
-  if (!with_sanitizers || std::getenv("SLOW_TOO") != nullptr) return false;
+  if (!with_sanitizers || slow_too()) return false;
   const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
   const string names = string(test.name()) + " " + (test.value_param() == nullptr ? "" : test.value_param());
   const auto is_in_names = [&](string_view word) { return names.find(word) != string::npos; };

@@ -9,8 +9,8 @@
 #include "commands/report.h"
 #include "commands/sweep_setup.h"
 #include "commands/text.h"
-#include "files/program_file.h"
 #include "numerics/processors.h"
+#include "program_file.h"
 #include "std.h"
 #include "yaml/joined.h"
 

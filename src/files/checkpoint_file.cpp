@@ -12,10 +12,10 @@
 #include "files/folders.h"
 #include "files/hash.h"
 #include "files/output_file.h"
-#include "files/program_file.h"
 #include "files/stored_file.h"
 #include "physics/archive.h"
 #include "physics/world.h"
+#include "program_file.h"
 #include "std.h"
 
 namespace carom {

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "program_file.h"
 #include "render/render_error.h"
 #include "std.h"
 #include "yaml/letters.h"
@@ -28,7 +29,7 @@ string variable_or(const char* name, const string& usual) {
 }
 
 /// The folders of fonts of the XDG base directories, the older one of a user, and that of the prefix which the program
-/// is in: an archive brings its own. (In an archive the loader of libraries is started, in lib/ beside bin/.)
+/// is in: an archive brings its own.
 vector<fs::path> font_folders() {
   vector<fs::path> folders;
   const string home = variable_or("HOME", "");
@@ -36,9 +37,8 @@ vector<fs::path> font_folders() {
   if (!own.empty()) folders.push_back(fs::path(own) / "fonts");
   if (!home.empty()) folders.push_back(fs::path(home) / ".fonts");
 
-  std::error_code error;
-  const fs::path started = fs::read_symlink("/proc/self/exe", error);
-  if (!error) folders.push_back(started.parent_path().parent_path() / "share/fonts");
+  const string prefix = program_prefix();
+  if (!prefix.empty()) folders.push_back(fs::path(prefix) / "share/fonts");
 
   const string shared = variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share");
   for (size_t i = 0; i <= shared.size();) {

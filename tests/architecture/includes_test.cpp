@@ -24,6 +24,7 @@ const map<string, vector<string>> header_words = {
      {"scene/scene.h", "scene/colors.h", "scene/film_layout.h", "scene/look.h", "scene/output.h", "scene/overlay.h"}},
     {"yaml's texts", {"yaml/joined.h", "yaml/letters.h", "yaml/other_case.h", "yaml/printable.h", "yaml/value_json.h"}},
     {"the version", {"version.h"}},
+    {"the program's place", {"program_file.h"}},
     {"render's Image", {"render/image.h"}},
     {"render's Model", {"render/model.h"}}};
 const map<string, vector<string>> library_words = {

@@ -7,6 +7,7 @@
 #include "render/mesh.h"
 #include "scene/load.h"
 #include "scene/scene.h"
+#include "slow_with_sanitizers.h"
 #include "std.h"
 
 namespace carom {
@@ -31,14 +32,14 @@ inline Scene scene_named(const string& name) {
 }
 
 /// For tests that run each scene several times. Those of many contacts or of gravity end early (s), with thousands of
-/// collisions and a few merges behind them: what follows is more of the same.
+/// collisions and a few merges behind them; ./dev stress runs them to their end.
 inline Scene scene_in_short(const string& name) {
   static const map<string, double> durations = {
       {"balls_in_a_box", 1.5},   {"binary_stars", 0.8},   {"brick_wall", 1.2},
       {"funnel", 0.4},           {"hourglass", 0.6},      {"lattice", 0.37},
       {"pi_to_six_digits", 1.5}, {"pour_into_bowl", 1.5}, {"shaken_tray", 1.2}};
   Scene scene = scene_named(name);
-  if (const auto found = durations.find(name); found != durations.end()) scene.simulate.duration = found->second;
+  if (const auto found = durations.find(name); found != durations.end() && !slow_too()) scene.simulate.duration = found->second;
   return scene;
 }
 

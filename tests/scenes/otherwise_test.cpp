@@ -18,7 +18,8 @@ using stress::Observed;
 Motion motion_of(const string& name) {
   const Scene scene = load(name);
   // For long runs of many bodies the beginning is enough, and for many springs the first impacts.
-  const double most = scene.world.body_count() > 150 ? 0.25 : scene.world.springs.size() > 150 ? 0.4 : 3;
+  const double enough = scene.world.body_count() > 150 ? 0.25 : scene.world.springs.size() > 150 ? 0.4 : 3;
+  const double most = slow_too() ? infinity : enough;
   return {scene.world, scene.initial, std::min(scene.simulate.duration, most), scene.simulate.rest_speed.value_or(0),
           scene.simulate.contact.merge};
 }

@@ -9,6 +9,9 @@ namespace carom {
 /// A name by which the running program's file can be opened.
 string program_file();
 
+/// The folder that bin/ with the program is in. Empty: /proc cannot be read.
+string program_prefix();
+
 /// The absolute path of what starts this program, for another shell; "carom" where /proc cannot be read.
 string program_command();
 

@@ -1,4 +1,4 @@
-#include "files/program_file.h"
+#include "program_file.h"
 
 #include <filesystem>
 #include <system_error>
@@ -26,6 +26,11 @@ string program_file() {
   // The link leads to the file itself, even where another one has its name by now.
   const fs::path file = started();
   return is_loader(file) ? (file.parent_path() / "carom").string() : "/proc/self/exe";
+}
+
+string program_prefix() {
+  // bin/carom, or lib/ with the loader.
+  return started().parent_path().parent_path().string();
 }
 
 string program_command() {
