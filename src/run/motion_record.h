@@ -18,7 +18,7 @@ class RecordSink final : public MotionSink {
   bool more() const override { return more_; }
   double time() override { return end_; }
   void record(const Simulator& simulator) override { put_(simulator); }
-  void sample(Simulator&) override { more_ = false; }
+  void sample(const Sample&) override { more_ = false; }
   void end_at(double time) override { end_ = time; }
 
  private:

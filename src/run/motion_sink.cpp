@@ -23,13 +23,38 @@ class Carrying {
         each([&](MotionSink& sink) { sink.end_at(end->time); });
         continue;
       }
-      each([&](MotionSink& sink) {
-        if (sink.more() && sink.time() <= *time) sink.sample(simulator_);
-      });
+      sample(*time);
     }
   }
 
  private:
+  /// At time 0 the state is the one before all that happens then, and the forces of contacts are those after it.
+  void sample(double time) {
+    const bool is_first = simulator_.time() == 0;
+    bool waits = false;
+    each([&](MotionSink& sink) {
+      if (!sink.more() || time < sink.time()) return;
+      if (is_first && sink.needs_contacts()) {
+        waits = true;
+      } else {
+        sink.sample({simulator_});
+      }
+    });
+    if (!waits) return;
+
+    const State before = simulator_.state();
+    uint64_t events = 0;
+    do {
+      events = simulator_.effort().events;
+      advance_to(0);
+      record();
+    } while (simulator_.effort().events != events);
+
+    each([&](MotionSink& sink) {
+      if (sink.more() && sink.time() <= time) sink.sample({simulator_, &before});
+    });
+  }
+
   template <typename Work>
   void each(const Work& work) const {
     for (size_t i = 0; i < sinks_.size(); ++i) guard_(i, [&] { work(*sinks_[i]); });

@@ -6,6 +6,14 @@
 
 namespace carom {
 
+/// A simulator at an instant.
+struct Sample {
+  Simulator& simulator;
+  const State* before = nullptr;  // where the simulator has gone through what happens at its instant, the state before
+
+  const State& state() const { return before != nullptr ? *before : simulator.state(); }
+};
+
 class MotionSink {
  public:
   virtual ~MotionSink() = default;
@@ -15,8 +23,10 @@ class MotionSink {
   virtual double time() = 0;
   /// Takes what the simulator has recorded since its last advance.
   virtual void record(const Simulator& simulator) = 0;
+  /// Whether the next sample takes forces of contacts, which count from an instant on: after all that happens then.
+  virtual bool needs_contacts() const { return false; }
   /// Takes the state at the next instant, which must be the simulator's time. Throws ExportError, RenderError.
-  virtual void sample(Simulator& simulator) = 0;
+  virtual void sample(const Sample& at) = 0;
   /// Ends the instants at `time` (s), the run's end, which is after all instants that are done. Throws ExportError.
   virtual void end_at(double time) = 0;
 };

@@ -36,11 +36,11 @@ void TableSink::record(const Simulator& simulator) {
   measuring_.record(simulator.collisions(), simulator.crossings());
 }
 
-void TableSink::sample(Simulator& simulator) {
+void TableSink::sample(const Sample& at) {
   if (part_.needs_state()) {
-    const State& state = simulator.state();
+    const State& state = at.state();
     const Stopwatch stopwatch(export_s_);
-    part_.sample(state, part_.needs_contacts() ? simulator.contacts() : span<const ContactForce>{});
+    part_.sample(state, needs_contacts() ? at.simulator.contacts() : span<const ContactForce>{});
   }
   more_ = part_.timeline().advance();
 }
@@ -106,12 +106,12 @@ vector<FilmChart*> DrawingSink::charts() {
   return charts;
 }
 
-void DrawingSink::sample(Simulator& simulator) {
-  const double time = simulator.time();
+void DrawingSink::sample(const Sample& at) {
+  const double time = at.simulator.time();
   const bool on_timeline = part().timeline().time() <= time;
 
   if (needs_state(time)) {
-    const State& state = simulator.state();
+    const State& state = at.state();
     history_.sample(state);
     if (on_timeline && part().needs_state()) {
       const Stopwatch stopwatch(export_s_);
@@ -120,7 +120,7 @@ void DrawingSink::sample(Simulator& simulator) {
 
     for (size_t i = 0; i < series_.size(); ++i) {
       if (on_timeline && is_picture_due(i))
-        draw(i, simulator);
+        draw(i, at);
       else if (series_[i].next_instant() <= time)
         expose(i, state);
     }
@@ -137,12 +137,12 @@ void DrawingSink::expose(size_t stream, const State& state) {
   series_[stream].expose(state);
 }
 
-void DrawingSink::draw(size_t stream, Simulator& simulator) {
+void DrawingSink::draw(size_t stream, const Sample& at) {
   stop_check_();
   const Image* image = nullptr;
   {
     const Stopwatch stopwatch(render_s_);
-    image = &series_[stream].picture(simulator.state(), simulator.tally());
+    image = &series_[stream].picture(at.state(), at.simulator.tally());
   }
   if (exports_.begins_with_title(stream)) begin_with_title(*image);
   const Stopwatch stopwatch(export_s_);

@@ -33,8 +33,9 @@ class TableSink final : public MotionSink {
 
   bool more() const override { return more_; }
   double time() override { return part_.timeline().time(); }
+  bool needs_contacts() const override { return part_.needs_contacts(); }
   void record(const Simulator& simulator) override;
-  void sample(Simulator& simulator) override;
+  void sample(const Sample& at) override;
   void end_at(double time) override { part_.timeline().end_at(time); }
 
   double export_s() const { return export_s_; }  // wall time
@@ -67,7 +68,7 @@ class DrawingSink final : public MotionSink {
   bool more() const override { return more_; }
   double time() override;
   void record(const Simulator& simulator) override;
-  void sample(Simulator& simulator) override;
+  void sample(const Sample& at) override;
   void end_at(double time) override;
 
   /// Counts a time (s) as spent on pictures.
@@ -81,7 +82,7 @@ class DrawingSink final : public MotionSink {
   bool is_picture_due(size_t stream);
   bool needs_state(double time);
   void expose(size_t stream, const State& state);
-  void draw(size_t stream, Simulator& simulator);
+  void draw(size_t stream, const Sample& at);
   void begin_with_title(const Image& first);
 
   const Scene& scene_;

@@ -73,9 +73,9 @@ void Framing::record(const Simulator& simulator) {
   for (Framed& framed : framed_) framed.samples.strike(simulator.collisions());
 }
 
-void Framing::sample(Simulator& simulator) {
+void Framing::sample(const Sample& at) {
   for (Framed& framed : framed_)
-    if (due(framed.stream)) framed.samples.add(simulator.state());
+    if (due(framed.stream)) framed.samples.add(at.state());
   advance();
 }
 
@@ -91,9 +91,9 @@ Charting::Charting(span<FilmChart* const> charts)
   if (any()) advance();
 }
 
-void Charting::sample(Simulator& simulator) {
+void Charting::sample(const Sample& at) {
   for (size_t i = 0; i < charts_.size(); ++i)
-    if (due(streams_[i])) charts_[i]->take(simulator.state());
+    if (due(streams_[i])) charts_[i]->take(at.state());
   advance();
 }
 

@@ -43,7 +43,7 @@ class Framing final : public Surveying {
   void finish();
 
   void record(const Simulator& simulator) override;
-  void sample(Simulator& simulator) override;
+  void sample(const Sample& at) override;
 
  private:
   /// The cameras of one scene, which all go by the same instants.
@@ -67,7 +67,7 @@ class Charting final : public Surveying {
   void finish();
 
   void record(const Simulator&) override {}
-  void sample(Simulator& simulator) override;
+  void sample(const Sample& at) override;
 
  private:
   vector<FilmChart*> charts_;

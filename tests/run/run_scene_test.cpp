@@ -59,6 +59,48 @@ const string ball =
     "scene: 1\nballs: {b: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.5}}\n"
     "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
 
+/// The lines of a table of a run with these outputs.
+vector<string> lines_of(const string& folder, const string& file) {
+  std::ifstream in(folder + "/" + file);
+  vector<string> lines;
+  for (string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Run, HasStatesBeforeAndForcesAfterWhatHappensAtTime0) {
+  const RunPlace place;
+  Scene scene = place.scene(
+      "scene: 1\ngravity: [0, -10, 0]\nrestitution: 0\ndefaults: {body: {mass: 1, box: [1, 1, 1]}}\n"
+      "bodies: {low: {position: [0, 0.5, 0]}, high: {position: [0, 1.5, 0]},\n"
+      "  left: {position: [4, 0.5, 0], velocity: [1, 0, 0], restitution: 1}, right: {position: [5, 0.5, 0], "
+      "restitution: 1}}\n"
+      "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\nsimulate: {duration: 0.5}\n"
+      "output: {trajectory: {every: 0.5}, contacts: {every: 0.5}, collisions: true, frames: {fps: 2, size: [32, "
+      "18]}}\n");
+
+  const auto run_of = [&](const string& name, const vector<string>& outputs) {
+    scene.output = restricted(scene.requested, outputs);
+    const string folder = place / name;
+    run_scene({&scene, folder}, choose_engine(scene), {.durability = Durability::deferred},
+              {[] {}, [](const RunProgress&) {}});
+    return folder;
+  };
+
+  const string with = run_of("with", {"trajectory", "contacts", "collisions", "frames"});
+  vector<string> first;
+  for (const string& line : lines_of(with, "contacts.csv"))
+    if (line.starts_with("0,")) first.push_back(line);
+  EXPECT_EQ(first, (vector<string>{"0,low,high,10", "0,low,floor,20", "0,left,floor,10", "0,right,floor,10"}));
+
+  // The pair's impact has one row, and everything else is as it is without forces.
+  EXPECT_EQ(lines_of(with, "collisions.csv").size(), 2u);
+  const string without = run_of("without", {"trajectory", "collisions", "frames"});
+  for (const string file : {"trajectory.csv", "collisions.csv", "frames/frame_00000.png"}) {
+    EXPECT_FALSE(lines_of(with, file).empty()) << file;
+    EXPECT_EQ(lines_of(with, file), lines_of(without, file)) << file;
+  }
+}
+
 TEST(Run, SimulatesOnceWithEveryCombinationOfOutputs) {
   const RunPlace place;
   const vector<string> kinds = {"trajectory", "collisions", "frames", "sheet", "xyz", "gltf", "flights"};

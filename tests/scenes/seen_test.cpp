@@ -88,7 +88,7 @@ class Keeping final : public MotionSink {
     for (const Collision& c : simulator.collisions())
       if (c.kind != CollisionKind::rest && c.time >= from_ && c.time <= until_) kept.push_back(c);
   }
-  void sample(Simulator&) override { more_ = false; }
+  void sample(const Sample&) override { more_ = false; }
   void end_at(double time) override { until_ = time; }
 
   vector<Collision> kept;
