@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "architecture/source_tree.h"
+#include "paths.h"
 #include "std.h"
 
 namespace carom::testing {

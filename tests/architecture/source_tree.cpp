@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 
+#include "paths.h"
 #include "std.h"
 
 namespace carom::testing {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/bench_folder.h"
+#include "paths.h"
 #include "scene/load.h"
 #include "scene/scene.h"
 #include "simulate/simulator.h"

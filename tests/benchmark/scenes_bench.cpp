@@ -7,6 +7,7 @@
 
 #include "bench/state_hash.h"
 #include "export/png.h"
+#include "paths.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "scene/scene.h"

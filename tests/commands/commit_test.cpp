@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "commands/program.h"
+#include "paths.h"
 #include "std.h"
 
 namespace carom::testing {

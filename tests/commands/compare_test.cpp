@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "commands/program.h"
+#include "paths.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"
 

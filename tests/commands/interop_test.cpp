@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
+#include "paths.h"
 #include "scene/scene.h"
 #include "std.h"
 

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "paths.h"
 #include "std.h"
 
 namespace carom::testing {

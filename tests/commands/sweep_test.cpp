@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
+#include "paths.h"
 #include "scene/scene.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"

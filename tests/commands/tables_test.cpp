@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/program.h"
+#include "paths.h"
 #include "slow_with_sanitizers.h"
 #include "std.h"
 

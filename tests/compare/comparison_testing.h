@@ -10,6 +10,7 @@
 
 #include "compare/comparison.h"
 #include "files/folder_writer.h"
+#include "paths.h"
 #include "run/run_scene.h"
 #include "scene/load.h"
 #include "std.h"

@@ -10,6 +10,7 @@
 #include "files/stored_table.h"
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
+#include "paths.h"
 #include "physics/world.h"
 #include "render/mesh.h"
 #include "render/mesh_reply.h"

@@ -2,6 +2,7 @@
 
 #include "fuzz/memory_file.h"
 #include "fuzz/targets.h"
+#include "paths.h"
 #include "physics/world.h"
 #include "scene/load.h"
 #include "scene/scene.h"

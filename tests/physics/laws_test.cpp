@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "numerics/compensated.h"
+#include "paths.h"
 #include "physics/energy.h"
 #include "physics/impact.h"
 #include "physics/restitution.h"

@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "paths.h"
 #include "std.h"
 
 namespace carom::testing {

@@ -7,6 +7,7 @@
 #include <regex>
 #include <sstream>
 
+#include "paths.h"
 #include "readme/pages.h"
 #include "std.h"
 

@@ -16,6 +16,7 @@
 #include "bench/bench.h"
 #include "engine/engine.h"
 #include "export/run_charts.h"
+#include "paths.h"
 #include "physics/energy.h"
 #include "physics/restitution.h"
 #include "physics/world.h"

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <tuple>
 
+#include "paths.h"
 #include "render/mesh.h"
 #include "render/outlines.h"
 #include "scene/scene.h"

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "numerics/srgb.h"
+#include "paths.h"
 #include "render/colored_meshes.h"
 #include "render/mesh_colors.h"
 #include "render/scenes.h"

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "paths.h"
 #include "render/colored_meshes.h"
 #include "render/mesh.h"
 #include "render/texture_levels.h"

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "paths.h"
 #include "render/colored_meshes.h"
 #include "render/mesh_folder.h"
 #include "slow_with_sanitizers.h"

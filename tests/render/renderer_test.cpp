@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "paths.h"
 #include "render/camera.h"
 #include "render/scenes.h"
 #include "scene/scene.h"

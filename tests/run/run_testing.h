@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "paths.h"
 #include "render/mesh.h"
 #include "scene/load.h"
 #include "scene/scene.h"
@@ -39,7 +40,8 @@ inline Scene scene_in_short(const string& name) {
       {"funnel", 0.4},           {"hourglass", 0.6},      {"lattice", 0.37},
       {"pi_to_six_digits", 1.5}, {"pour_into_bowl", 1.5}, {"shaken_tray", 1.2}};
   Scene scene = scene_named(name);
-  if (const auto found = durations.find(name); found != durations.end() && !slow_too()) scene.simulate.duration = found->second;
+  if (const auto found = durations.find(name); found != durations.end() && !slow_too())
+    scene.simulate.duration = found->second;
   return scene;
 }
 

@@ -7,6 +7,7 @@
 #include "export/flights_file.h"
 #include "export/same_piece.h"
 #include "files/folder_writer.h"
+#include "paths.h"
 #include "physics/world.h"
 #include "run/replay.h"
 #include "run/run_testing.h"

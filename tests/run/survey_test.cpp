@@ -5,6 +5,7 @@
 
 #include "engine/engine.h"
 #include "export/picture_streams.h"
+#include "paths.h"
 #include "physics/world.h"
 #include "render/camera.h"
 #include "run/run_testing.h"

@@ -12,6 +12,7 @@
 #include <regex>
 #include <sstream>
 
+#include "paths.h"
 #include "scene/fields.h"
 #include "scene/format_page.h"
 #include "scene/scene.h"

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "paths.h"
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "render/camera.h"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "paths.h"
 #include "scene/load.h"
 #include "scenes/play.h"
 #include "std.h"

@@ -3,6 +3,7 @@
 
 #include <numbers>
 
+#include "paths.h"
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "scene/load.h"

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/engine.h"
+#include "paths.h"
 #include "physics/energy.h"
 #include "physics/world.h"
 #include "render/mesh.h"

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "paths.h"
 #include "std.h"
 
 namespace carom {

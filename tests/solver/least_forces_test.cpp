@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "paths.h"
 #include "solver/contact_problem.h"
 #include "std.h"
 

@@ -1,6 +1,7 @@
 // The bytes of a file, read and checked before any parsing.
 #include "yaml/source.h"
 
+#include "paths.h"
 #include "std.h"
 #include "yaml/parsed.h"
 
