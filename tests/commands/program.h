@@ -47,7 +47,7 @@ inline map<string, string> without_manifest(map<string, string> files) {
   return files;
 }
 
-inline const string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
+const string tables = "output: {trajectory: {every: 0.1}, collisions: true, energy: {every: 0.1}}\n";
 
 /// Two balls that meet at 0.4472... s, small enough for any test. `more`: further top-level lines.
 string two_balls(const string& more = tables);

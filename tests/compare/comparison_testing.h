@@ -86,7 +86,7 @@ inline vector<vector<string>> rows_of(const string& text) {
 }
 
 /// Two balls that meet at 0.445 s, all tables.
-inline const string two_balls =
+const string two_balls =
     "scene: 1\n"
     "title: Two balls\n"
     "gravity: [0, 0, 0]\n"

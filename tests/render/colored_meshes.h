@@ -20,17 +20,17 @@ inline string from_base64(string_view text) {
 }
 
 /// PNG, 2 x 2 pixels: red, green; blue, white.
-inline const string four_colors =
+const string four_colors =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAIAAAD91JpzAAAAEklEQVR42mP4z8DAAMIM/4EAAB/uBfvxq7p3AAAAAElFTkSuQmCC";
 /// PNG, 2 x 2 white pixels with opacity 255, 0; 120, 255.
-inline const string four_opacities =
+const string four_opacities =
     "iVBORw0KGgoAAAANSUhEUgAAAAIAAAACCAYAAABytg0kAAAAEklEQVR42mP4DwEMDECiAsQCAILpDmsEOdd0AAAAAElFTkSuQmCC";
 /// PNG, 64 x 64 pixels: black, white, black, ...
-inline const string checkers =
+const string checkers =
     "iVBORw0KGgoAAAANSUhEUgAAAEAAAABACAIAAAAlC+aJAAAAWElEQVR42u3RoQ0AAAgDwe6/dBHMgCC5itdNLknaPu7v9zsCBAgQIECAAAEC"
     "BAgQIECAAAECBAgQIECAAAECBAgQIECAAAECBAgQIECAAAECBAgQIEDgtgP9QulaQI5ysQAAAABJRU5ErkJggg==";
 /// JPEG, 8 x 8 pixels: the upper half red, the lower half blue.
-inline const string red_over_blue =
+const string red_over_blue =
     "/9j//gAQTGF2YzU5LjM3LjEwMAD/2wBDAAgEBAQEBAUFBQUFBQYGBgYGBgYGBgYGBgYHBwcICAgHBwcGBgcHCAgICAkJCQgICAgJCQoKCgwMCwsO"
     "Dg4RERT/xABUAAEBAAAAAAAAAAAAAAAAAAAFBwEBAQAAAAAAAAAAAAAAAAAABgcQAQADAQAAAAAAAAAAAAAAAAAWZOOjEQEAAwEAAAAAAAAAAAAA"
     "AAAAGGblpf/AABEIAAgACAMBEgACEgADEgD/2gAMAwEAAhEDEQA/AJpKqffEOVRltfH1FVNZDVnq5qav/9k=";

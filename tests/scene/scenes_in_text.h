@@ -57,7 +57,8 @@ inline string errors_with(string_view text, const string& set) {
   return errors_of(text, options);
 }
 
-/// A scene that is complete except for the test's part.
-inline const string start = "scene: 1\nsimulate: {duration: 1}\n";
+/// A scene that is complete except for the test's part. Constants of other files begin with it: an inline constant may
+/// be made after theirs, in the order of the linker.
+const string start = "scene: 1\nsimulate: {duration: 1}\n";
 
 }  // namespace carom

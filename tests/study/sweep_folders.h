@@ -8,7 +8,7 @@
 namespace carom::testing {
 
 /// Two balls that meet. Further keys may follow.
-inline const string quick_scene =
+const string quick_scene =
     "scene: 1\n"
     "gravity: [0, 0, 0]\n"
     "balls:\n"
