@@ -1,7 +1,8 @@
 #!/bin/sh
 # same_bytes.sh PROGRAM OTHER SCENE...: runs each scene by two programs and compares every byte of their tables (manifests have wall
-# times and are left out), and, with PICTURES set, the pixels of their sheets. A program is a command with its first arguments, such
-# as qemu's. Scenes that take PROGRAM longer than PATIENCE seconds are listed and left out.
+# times and are left out), and, with PICTURES set, the pixels of their sheets, except where they have meshes: Mesa draws these, with
+# other roundings on other processors. A program is a command with its first arguments, such as qemu's. Scenes that take PROGRAM
+# longer than PATIENCE seconds are listed and left out.
 set -eu
 
 here=$(dirname "$0")
@@ -11,6 +12,8 @@ patience=${PATIENCE:-10}
 outputs=trajectory,collisions,energy${PICTURES:+,sheet}
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+
+has_own_pixels() { [ -n "${PICTURES:-}" ] && ! grep -q 'mesh:' "$scene"; }
 
 scenes=0 files=0 slow=0 wrong=0
 for scene; do
@@ -28,7 +31,7 @@ for scene; do
   run "$other" other $((100 * patience)) || same=$?
   scenes=$((scenes + 1))
   if [ "$status" != "$same" ] || ! diff -r -q --exclude=manifest.json --exclude='*.png' "$folder/one" "$folder/other" \
-    || { [ -n "${PICTURES:-}" ] && ! "$here/same_pixels.py" "$folder/one/$name/sheet.png" "$folder/other/$name/sheet.png"; }; then
+    || { has_own_pixels && ! "$here/same_pixels.py" "$folder/one/$name/sheet.png" "$folder/other/$name/sheet.png"; }; then
     echo "$scene: differs (exit codes $status and $same)"
     wrong=$((wrong + 1))
   fi
