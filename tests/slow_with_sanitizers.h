@@ -1,6 +1,7 @@
 #pragma once
 // Marks of tests that the build with sanitizers leaves out. There a test without a mark has two minutes: see
-// tests/CMakeLists.txt. With SLOW_TOO in the environment, as ./dev stress has it, nothing is left out or cut short.
+// tests/CMakeLists.txt. With SLOW_TOO in the environment, as in ./dev stress, none is left out, and scenes run to their
+// end.
 
 #include <gtest/gtest.h>
 

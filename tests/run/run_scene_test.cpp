@@ -59,7 +59,7 @@ const string ball =
     "scene: 1\nballs: {b: {mass: 1, radius: 0.1, position: [0, 1, 0], restitution: 0.5}}\n"
     "planes: {floor: {point: [0, 0, 0], normal: [0, 1, 0]}}\n";
 
-/// The lines of a table of a run with these outputs.
+/// The lines of a file in the folder of a run.
 vector<string> lines_of(const string& folder, const string& file) {
   std::ifstream in(folder + "/" + file);
   vector<string> lines;
